@@ -93,6 +93,11 @@ def take_memory_back(batch, q, v, z, by_q, by_v, numbers, ws):
     raise TypeError(f"{type(batch).__name__} does not know what its memory does")
 
 
+def take_measured_slopes(batch, q, v, dq, dv, out):
+    """Write the derivatives of what is measured (``measure``) along a change of the state, in its order."""
+    raise TypeError(f"{type(batch).__name__} does not know the slopes of what it measures")
+
+
 #: Operations that only sensitivities ask for, by their names in :func:`implements`.
 OF_SENSITIVITIES: dict[str, Any] = {
     "rate_stiffness": add_rate_stiffness,
@@ -109,4 +114,5 @@ OF_SENSITIVITIES: dict[str, Any] = {
     "memory_changes": add_memory_changes,
     "memory_work": take_memory_work,
     "memory_back": take_memory_back,
+    "measured_slopes": take_measured_slopes,
 }

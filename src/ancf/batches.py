@@ -45,6 +45,7 @@ from .compiled import (
     remember,
     remember_along,
     strain_energy,
+    take_measured_slopes,
     take_memory_back,
     take_memory_work,
 )
@@ -56,7 +57,7 @@ _COLUMNS = 1 + len(OPERATIONS)
 _NONE = np.zeros((0, _COLUMNS), dtype=np.int64)
 FORCE, INERTIA, TANGENT, ENERGY, EVENT, INVERTED, MEASURE, REMEMBER = range(1, 9)
 RATES, NUMBERS, WORKS, SLOPES, ALONG, BESIDE, CHANGES, PRODUCTS = range(9, 17)
-CHOICE, REMEMBERED, KEEPING, OWN_CHANGES, MEMORY_WORK, MEMORY_BACK = range(17, _COLUMNS)
+CHOICE, REMEMBERED, KEEPING, OWN_CHANGES, MEMORY_WORK, MEMORY_BACK, MEASURED = range(17, _COLUMNS)
 #: Operations compiled for those who ask for them, see :mod:`ancf.solvers.rare`, and their columns.
 RARE = {
     measure: MEASURE,
@@ -74,6 +75,7 @@ RARE = {
     add_memory_changes: OWN_CHANGES,
     take_memory_work: MEMORY_WORK,
     take_memory_back: MEMORY_BACK,
+    take_measured_slopes: MEASURED,
 }
 
 

@@ -33,6 +33,7 @@ from .asked import add_tangent_work as add_tangent_work
 from .asked import add_work_slopes as add_work_slopes
 from .asked import choose_memory as choose_memory
 from .asked import remember_along as remember_along
+from .asked import take_measured_slopes as take_measured_slopes
 from .asked import take_memory_back as take_memory_back
 from .asked import take_memory_work as take_memory_work
 from .parts import PartCompiler, part
@@ -380,9 +381,7 @@ def _choose_by_kind(stub: Callable[..., Any]) -> None:
 
 
 def does_something(batch_type: type, stub: Callable[..., Any]) -> bool:
-    """Whether an operation of a kind of batch does anything; all kinds have all but :func:`measure`,
-    :func:`remember` and those that only sensitivities ask for.
-    """
+    """Whether an operation of a kind of batch does anything; the last ones of ``_STUBS`` not all kinds have."""
     if (batch_type, add_force) not in _DOES:
         raise TypeError(f"no operations for {batch_type.__name__}")
     return _DOES.get((batch_type, stub), no_energy) not in _NOTHING

@@ -29,6 +29,7 @@ from .compiled import (
     remember_along,
     separate_kernel,
     strain_energy,
+    take_measured_slopes,
     take_memory_back,
     take_memory_work,
 )
@@ -161,6 +162,12 @@ def memory_back_at(record, q, v, z, by_q, by_v, numbers, ws):
 
 
 @separate_kernel
+def measured_slopes_at(record, q, v, dq, dv, out):
+    """``take_measured_slopes`` of the batch at an address."""
+    take_measured_slopes(record, q, v, dq, dv, out)
+
+
+@separate_kernel
 def tangent_work_at(record, q, v, x, by_q, by_v, by_a, ws):
     """``add_tangent_work`` of the batch at an address."""
     add_tangent_work(record, q, v, x, by_q, by_v, by_a, ws)
@@ -193,4 +200,5 @@ OPERATIONS: dict[Any, tuple[Any, tuple[Any, ...], Any]] = {
     add_memory_changes: (memory_changes_at, (_V, _V, _V, _PLACES, _PLACES, _V, _V), types.none),
     take_memory_work: (memory_work_at, (_V, _V, _V, _V, _V), types.none),
     take_memory_back: (memory_back_at, (_V, _V, _V, _V, _V, _V, _V), types.none),
+    take_measured_slopes: (measured_slopes_at, (_V, _V, _V, _V, _V), types.none),
 }

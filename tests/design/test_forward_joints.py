@@ -65,7 +65,7 @@ def test_remainders(way, method):
 
 def by_rounds(monkeypatch):
     """Let nothing be solved at once."""
-    monkeypatch.setattr(follow, "edge_for", lambda size, rows: edge_for(size, 0))
+    monkeypatch.setattr(follow, "edge_for", lambda size, m: edge_for(0, m))
 
 
 @pytest.mark.parametrize("method", methods())

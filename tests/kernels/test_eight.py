@@ -5,11 +5,18 @@ import pytest
 
 from ancf.linalg.block_ldl import allocate
 from ancf.linalg.eight import LANES, allocate_eight, factor_of, factorise_eight
-from ancf.linalg.lanes import multiply_abreast, solve_abreast
+from ancf.linalg.eight_twisted import allocate_twisted, factorise_twisted
+from ancf.linalg.lanes import (
+    multiply_abreast,
+    multiply_both_abreast,
+    multiply_twisted_abreast,
+    rows_of,
+    solve_abreast,
+)
 from ancf.linalg.ordering import fill_pattern
 from ancf.system.core import factorise_matrix, solve_matrix
 from ancf.system.matrix import Places
-from block_matrices import PATTERNS, definite, random_symmetric, values
+from block_matrices import PATTERNS, boolean, definite, random_symmetric, values
 
 RNG = np.random.default_rng(3)
 BOTH = pytest.mark.parametrize("definite_ones", [True, False])
@@ -100,8 +107,49 @@ def test_eight_right_hand_sides(pattern):
     _, factor, eight, _ = together([A] * LANES, pairs, n, True)
     X = RNG.standard_normal((6 * n, LANES))
     Y = X.copy()
-    solve_abreast(factor_of.py_func(factor, eight, 2), Y)
+    solve_abreast(rows_of.py_func(factor, eight, 2, False), Y)
     assert pytest.approx(X, abs=1e-11 * np.abs(X).max()) == A @ Y
     Z = X.copy()
     multiply_abreast(factor, eight.A[0], Y, Z, len(factor.row_start) - 1)
     assert pytest.approx(2.0 * X, abs=1e-11 * np.abs(X).max()) == Z
+
+
+def twisted_ones(pairs, n, size):
+    """Eight positive definite matrices, and what is antisymmetric to be added to them."""
+    pattern = np.kron(boolean(pairs, n), np.ones((6, 6)))
+    free = [np.random.default_rng(seed).standard_normal((6 * n, 6 * n)) for seed in range(LANES)]
+    return different(definite(pairs, n), pairs, n, 0.01), [size * (W - W.T) * pattern for W in free]
+
+
+@pytest.mark.parametrize("size", [0.0, 1e-3, 3.0])
+@pytest.mark.parametrize("count", [1, 5, LANES])
+def test_matrices_that_are_not_symmetric(pattern, count, size):
+    """The antisymmetric part may be as large as the symmetric one, or nothing."""
+    pairs, n = pattern
+    matrices, twists = twisted_ones(pairs, n, size)
+    places, factor, eight, _ = together(matrices, pairs, n, True)
+    W = np.array([values(twist, places) for twist in twists])
+    eight.A[count:], W[count:], eight.LT[:] = np.nan, np.nan, np.nan
+    assert factorise_twisted(factor, eight, allocate_twisted(factor, True), W, count)
+    X = RNG.standard_normal((6 * n, LANES))
+    for m in range(count):
+        Y, A = X.copy(), matrices[m] + twists[m]
+        solve_abreast(rows_of.py_func(factor, eight, m, True), Y)
+        assert np.abs(A @ Y - X).max() < 1e-11 * np.abs(X).max()
+        Z, rows = [X.copy(), X.copy()], len(factor.row_start) - 1
+        multiply_both_abreast(factor, eight.A[m], W[m], Y, Z[0], rows, np.zeros((2, 36)))
+        multiply_abreast(factor, eight.A[m], Y, Z[1], rows)
+        multiply_twisted_abreast(factor, W[m], Y, Z[1], rows)
+        for found in Z:
+            assert pytest.approx(2.0 * X, abs=1e-11 * np.abs(X).max()) == found
+
+
+def test_twisted_ones_need_pivots_above_zero():
+    """Where it is not so in one lane, it is said, and none of the factors count."""
+    for pairs, n in PATTERNS.values():
+        matrices, twists = twisted_ones(pairs, n, 1e-2)
+        places, factor, eight, _ = together(matrices, pairs, n, True)
+        W = np.array([values(twist, places) for twist in twists])
+        eight.A[6] -= values(1e3 * np.diag(np.arange(6 * n) == 6 * n - 1), places)
+        assert not factorise_twisted(factor, eight, allocate_twisted(factor, True), W, LANES)
+        assert factorise_twisted(factor, eight, allocate_twisted(factor, True), W, 6)

@@ -4,6 +4,9 @@ import numpy as np
 import pytest
 
 import ancf
+from ancf.batches import measure_all
+from ancf.compiled import kernel, measure, take_measured_slopes
+from ancf.solvers.rare import knowing, take_measured_slopes_of
 from ancf.system.system import System
 from sloped import at_time, check_beside, check_slopes
 from strained import states
@@ -98,3 +101,37 @@ def test_of_contacts(profile, damping):
     by_q, by_v, _ = check_slopes(system, "contacts", given, x, 1e-5, 3e-8)
     assert by_q > 0.0
     assert (by_v > 1e-3) == (damping > 0.0)
+
+
+@kernel
+def slopes_of_measured(batches, q, v, dq, dv, out):
+    take_measured_slopes_of(batches, 0, q, v, dq, dv, out)
+
+
+@pytest.mark.parametrize("height", [0.2, -0.4], ids=["pushes", "apart"])
+@pytest.mark.parametrize("damping", [0.0, 40.0])
+def test_of_what_contacts_measure(height, damping):
+    """Force, overlap, place on the wire and aside of two strips, along random changes of the state."""
+    model, wire = beams()
+    for k, place in enumerate((0.3, 0.8)):
+        head = model.add_point_mass(f"head {k}", at=(place, 0.125, height), mass=1.0)
+        strip = {"strip": (0.1 * k, 1.0, 0.0), "normal": (0.0, 0.0, 1.0)}
+        model.add_contact(head, along=wire, stiffness=5e3, damping=damping, **strip)
+    system, (q, v, _), _ = moved(model, 2)
+    batch, rng = system.parts["contacts"], np.random.default_rng(4)
+    batches, found, step = knowing(take_measured_slopes, [batch], measure), np.zeros((2, 4)), 1e-5
+    for _ in range(5):
+        dq, dv = rng.uniform(-1, 1, (2, system.size))
+        slopes_of_measured(batches, q, v, dq, dv, found.reshape(-1))
+        wanted = np.zeros((2, 4))
+        for place, weight in ((-2.0, 1 / 12), (-1.0, -8 / 12), (1.0, 8 / 12), (2.0, -1 / 12)):
+            measured(batches, q + place * step * dq, v + place * step * dv)
+            wanted += weight / step * batch.found
+        assert np.all((found[:, 0] != 0.0) == (height == 0.2))
+        size = np.maximum(np.max(np.abs(wanted), axis=0), 1.0)
+        assert np.max(np.abs(found - wanted) / size) < 3e-8
+
+
+@kernel
+def measured(batches, q, v):
+    measure_all(batches, q, v)

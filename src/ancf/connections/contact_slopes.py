@@ -1,4 +1,4 @@
-"""Derivatives of x . force of contacts of a wire with a strip by the state and by their numbers.
+"""Derivatives of x . force, and of what is measured, of contacts of a wire with a strip by the state.
 
 With y = x_p - x_r(s), w = dp/dt - dr(s)/dt and, as in :mod:`ancf.connections.contact`, F = k g + c m.w, the
 work is F m.y.  The crossing moves by ds = e.(dp - dr)/(e.r_s), so that
@@ -6,15 +6,18 @@ work is F m.y.  The crossing moves by ds = e.(dp - dr)/(e.r_s), so that
     dg = m.(dp - dr),     dm = -d(sigma) e,     d(sigma) = m.(dr_s + r_ss ds)/(e.r_s),
     dw = dv_p - dv_r - v_s ds,     dy = -x_s ds,
 
-where an index s is a derivative along the wire, and the slope of a profile is the same around s.
+where an index s is a derivative along the wire, and the slope of a profile is the same around s.  Aside of
+the strip's middle, -u.y, the crossing is with u = n x e.
 """
 
 from __future__ import annotations
 
+import numpy as np
+
 from ..compiled import formula, inline_kernel
 from ..vectors import both, dot
 from .carrier import COLUMNS, line, shape, slider
-from .contact_touch import DAMPING, OVERLAP, STIFFNESS, touch
+from .contact_touch import ARC, ASIDE, DAMPING, FORCE, OVERLAP, STIFFNESS, touch
 
 
 @formula
@@ -66,3 +69,25 @@ def contact_number_work(batch, q, v, a, x, out, ws):
             power = dot(m, between(batch, j, e, xi, x))
             out[columns * j + STIFFNESS] += batch.found[j, OVERLAP] * power
             out[columns * j + DAMPING] += dot(m, between(batch, j, e, xi, v)) * power
+
+
+@inline_kernel
+def contact_measured_slopes(batch, q, v, dq, dv, out):
+    """See :func:`ancf.compiled.take_measured_slopes`; zero where no wire crosses the strip's plane."""
+    for j in range(batch.slot.shape[0]):
+        pushes, e, xi, m, _ = touch(batch, j, q, v)
+        own = out[4 * j : 4 * j + 4]
+        own[FORCE] = own[OVERLAP] = own[ARC] = own[ASIDE] = 0.0
+        if batch.found[j, OVERLAP] == -np.inf:
+            continue
+        n, tau = batch.normal[j], (batch.travel[j, 0], batch.travel[j, 1], batch.travel[j, 2])
+        u = (n[1] * tau[2] - n[2] * tau[1], n[2] * tau[0] - n[0] * tau[2], n[0] * tau[1] - n[1] * tau[0])
+        t = line(batch, e, xi, q, 1)
+        rise, y, w = 1.0 / dot(tau, t), between(batch, j, e, xi, dq), between(batch, j, e, xi, dv)
+        ds = rise * dot(tau, y)
+        own[OVERLAP], own[ARC], own[ASIDE] = dot(m, y), ds, dot(u, t) * ds - dot(u, y)
+        if pushes:
+            turn = rise * (dot(m, line(batch, e, xi, dq, 1)) + dot(m, line(batch, e, xi, q, 2)) * ds)
+            fast = dot(m, w) - dot(m, line(batch, e, xi, v, 1)) * ds
+            fast -= dot(tau, between(batch, j, e, xi, v)) * turn
+            own[FORCE] = batch.data[j, STIFFNESS] * dot(m, y) + batch.data[j, DAMPING] * fast

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import socket
 import threading
 import time
 from collections import deque
@@ -17,8 +18,8 @@ from .journal import FAILED, Outcome
 from .processes import Case
 from .work import Function, outcome, unpacked
 
-#: s until a scheduler must have answered.
-PATIENCE = 10.0
+#: s until a scheduler must have answered, and one that listens but is busy.
+PATIENCE, BUSY = 10.0, 300.0
 #: Work of one task, s, and the most cases; tasks that wait for each thread of the cluster.
 AT_ONCE, MOST_AT_ONCE, WAITING = 2.0, 500, 2
 #: s that the first case has to itself, so that the kernels are compiled once.
@@ -26,6 +27,16 @@ ALONE = 120.0
 #: Functions of this process by their bytes; a process of a cluster computes one case at a time.
 _functions: dict[str, Function] = {}
 _one = threading.Lock()
+
+
+def listens(address: str) -> bool:
+    """Whether something takes connections at ``tcp://host:port``."""
+    host, _, port = address.removeprefix("tcp://").rpartition(":")
+    try:
+        socket.create_connection((host.strip("[]"), int(port)), timeout=PATIENCE).close()
+    except (OSError, ValueError):
+        return False
+    return True
 
 
 class Cluster:
@@ -54,8 +65,14 @@ class Cluster:
         self._alone = ""
 
     def _connected(self, address: str) -> Any:
+        make = self._distributed.Client
         try:
-            return self._distributed.Client(address, timeout=PATIENCE, set_as_default=False)
+            try:
+                return make(address, timeout=PATIENCE, set_as_default=False)
+            except OSError:
+                if not listens(address):
+                    raise
+                return make(address, timeout=BUSY, set_as_default=False)
         except (OSError, ValueError, ImportError) as error:
             what = f"does not answer: {str(error).splitlines()[0] if str(error) else type(error).__name__}"
             hint = "start one with: dask scheduler; and on each machine: dask worker ADDRESS --nthreads 1"

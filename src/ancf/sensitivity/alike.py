@@ -163,6 +163,12 @@ def _unmoved(a: System, b: System) -> bool:
     return not any(one.motions or one.rotations for one in (a.inputs, b.inputs))
 
 
+def same_patterns(a: System, b: System) -> bool:
+    """Whether dead loads are the same but for weights, and what they are fed with."""
+    names = ("slot", "factor", "grows")
+    return a.dead is b.dead or all(np.array_equal(getattr(a.dead, x), getattr(b.dead, x)) for x in names)
+
+
 def same_loads(a: System, b: System) -> bool:
     """Whether dead loads are the same numbers and functions."""
     names = ("still", "hung", "slot", "factor")

@@ -74,11 +74,9 @@ def matrices_of(
     alpha, row = (stiff[0].alpha, stiff[0].unknown) if stiff else (np.zeros(0), np.zeros(0, dtype=np.int64))
     places = [batch.unknown + 3 for batch in joints if Role.SLIDES in traits(batch).role]
     edge = np.concatenate([core.joints.multipliers, *places]).astype(np.int64)
-    edge = row[:0] if whole else edge  # what tangents of others leave out is not in few rows
+    few: Any = along, found, alpha, row, edge, bool(whole)
     work = np.zeros((10, size))
-    made = Matrices(
-        *kinds, Batches(rough), K, C, M, W, *flags, moved_by(core), work, along, found, alpha, row, edge
-    )
+    made = Matrices(*kinds, Batches(rough), K, C, M, W, *flags, moved_by(core), work, *few)
     apart = 1.0 + 0.5 * np.sin(np.arange(size, dtype=np.float64))  # springs between places that are not one
     exact_masses(made, core.ws, apart, np.zeros(size))
     return made

@@ -61,6 +61,8 @@ class Family(Pushing):
         It is plain but for rows of joints that depend on the parameter.
     constant : bool
         No dead load of the model changes with time.
+    fed : bool
+        Loads have the same inputs at all values.
 
     Raises
     ------
@@ -114,7 +116,7 @@ class Family(Pushing):
 
     def _see_ends(self, moved: FloatArray) -> None:
         """An end of a cable moves what supports hold, and no number of a batch and no load."""
-        self._fed, self._loads, self.moves = True, False, True
+        self.fed, self._loads, self.moves = True, False, True
         self.constant = all(f.constant for f in self.base.inputs.loads)
         self._see_held(moved, slopes_rates(self.base, moved), True)
 
@@ -241,9 +243,9 @@ class Family(Pushing):
         """See what of the model depends on the parameter."""
         base = self.base
         self.changed = self._names()
-        still, self._fed = self._steady_inputs()
+        still, self.fed = self._steady_inputs()
         self.moves = not still
-        plain = still and (self._fed or all(self._has_own(system) for system in self.systems))
+        plain = still and (self.fed or all(self._has_own(system) for system in self.systems))
         rows = any(Role.CONSTRAINS in traits(base.parts[name]).role for name in self.changed)
         self._see_supports(plain, rows)
         self._loads = any(not same_loads(base, s) for s in self.systems)
@@ -326,7 +328,7 @@ class Family(Pushing):
             )
         for k, (system, weight) in enumerate(zip(self.systems, self.weights, strict=True)):
             value = tables.value
-            if not self._fed:
+            if not self.fed:
                 value = self._steady[k] if self.constant else self._value(k, when, len(value))
             yield weight, system.dead, value
 

@@ -111,7 +111,7 @@ class Following:
         self.m = moved_with(self.system, self._matrices())
         self.ahead = ahead_of(self.system.core, self.m)
         self.room = room_for(self.system.size, self.m.outside)
-        self.edge = edge_for(self.system.size, len(self.m.edge))
+        self.edge = edge_for(self.system.size, self.m)
         self.given = given_start(self.families, self.run.t_start, self.system, start, where)
         self.memory.take(start, where)
         self.taken, self.done = 0, 0  # steps taken in and followed

@@ -17,6 +17,7 @@ from ..solvers.rare import knowing
 from ..solvers.sensitivity import Way
 from ..system.core import apply_load
 from ..system.system import System
+from .alike import same_patterns
 from .family import Family
 from .rates import rates_of
 
@@ -195,10 +196,12 @@ class Nearby:
 
     def _loads(self, k: int, when: tuple[float, float, float, float], tables: Any) -> Any:
         total: Any = 0.0
-        for weight, loads, value in self.families[k].loads_used(when, tables):
-            if len(loads.hung_slot) or (len(loads.start) > 1 and not self.families[k].constant):
+        family = self.families[k]
+        alone = family.fed and all(same_patterns(family.base, system) for system in family.systems)
+        for weight, loads, value in family.loads_used(when, tables):
+            if len(loads.hung_slot) or not (alone or len(loads.start) == 1 or family.constant):
                 return None
-            if len(loads.start) == 1:
+            if alone or len(loads.start) == 1:
                 total = total + weight * loads.gravity
                 continue
             apply_load(loads, value[0], self._work)

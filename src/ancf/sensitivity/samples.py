@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from copy import copy
 from typing import Any
 
 import numpy as np
 
 from ..arrays import FloatArray
+from ..compiled import Role, traits
 from ..model.bodies import Body
 from ..model.lookup import parse_point
 from ..model.points import Point
 from ..results.sensors import Sensors
-from ..solvers.sampling import sample_rows, sample_slopes, sampling_of
+from ..solvers.sampling import measured_of, measured_slopes, sample_rows, sample_slopes, sampling_of
 from ..solvers.sensitivity import LEAST
 from ..system.sensors import Listing
 from ..system.system import System
@@ -41,11 +43,16 @@ class Samples:
         self.families, self.listing, self.done = families, listing, 0
         system.sensors = listing
         self.sampling = sampling_of(system)
+        self.known = measured_of(self.sampling)
         self.near: list[list[Any]] = []
         for family in families if self.sampling.width else ():
             for own in family.systems:
                 own.sensors = listing
-            self.near.append([sampling_of(own) for own in family.systems])
+            alone = [
+                own for own in family.systems if own is family.base
+            ]  # it measures what the model measures
+            asked = family.systems if family.changed & _measuring(system) else alone
+            self.near.append([sampling_of(own) if own in asked else None for own in family.systems])
         rows = steps + 1 if self.sampling.width else 0
         self.rows = np.zeros((len(families), rows, self.sampling.width))
         self.weight = system.core.weight
@@ -73,8 +80,12 @@ class Samples:
         """Derivatives of the samples ``here`` of states by parameter p."""
         total, family = np.zeros_like(here), self.families[p]
         for sampling, weight, own in zip(self.near[p], family.weights, family.systems, strict=True):
-            if own is not family.base:
+            if sampling is not None and own is not family.base:
                 total += weight * (self._rows(sampling, *states) - here)
+        if self.known is not None:
+            entries = self.sampling.entries
+            measured_slopes(self.known, entries, *states, made, 2 * len(self.sampling.unknowns), total)
+            return total
         room = np.zeros((2, states[0].shape[1])), np.zeros(self.sampling.width)
         sample_slopes(self.sampling, *states, made, len(self.weight), NEAR, np.array(PLACES), *room, total)
         return total
@@ -83,6 +94,11 @@ class Samples:
         rows = np.zeros((len(q), sampling.width))
         sample_rows(sampling, q, v, rows)
         return rows
+
+
+def _measuring(system: System) -> set[str]:
+    """Names of the batches that measure."""
+    return {name for name, part in system.parts.items() if Role.MEASURES in traits(part).role}
 
 
 class _Recorded(Sensors):
@@ -120,6 +136,7 @@ class SensorSensitivity:
         self.rows, k = rows, len(sensors.listing.index)
         self._d = {"q": rows[:, :k], "v": rows[:, k : 2 * k], "measured": rows[:, 2 * k :]}
         self.t = sensors.t
+        self._faces: dict[int, _Recorded] = {}  # that answer for the systems
 
     def __repr__(self) -> str:
         return f"SensorSensitivity({self.name!r}, {len(self.t)} times)"
@@ -174,8 +191,12 @@ class SensorSensitivity:
         return found
 
     def _with(self, system: System, arrays: dict[str, FloatArray]) -> _Recorded:
-        whole = Face(system, np.zeros(system.size), np.zeros(system.size), 0.0)
-        return _Recorded(self._sensors, _Whole(whole), arrays, self._family.base)
+        if id(system) not in self._faces:
+            whole = Face(system, np.zeros(system.size), np.zeros(system.size), 0.0)
+            self._faces[id(system)] = _Recorded(self._sensors, _Whole(whole), {}, self._family.base)
+        made = copy(self._faces[id(system)])
+        made._arrays = lambda: arrays
+        return made
 
 
 class _Whole:

@@ -10,15 +10,15 @@ import numpy as np
 
 from ..batches import BESIDE
 from ..compiled import formula, inline_kernel, kernel
-from ..linalg.eight import factor_of
-from ..linalg.lanes import multiply_abreast, multiply_twisted_abreast, solve_abreast
+from ..linalg.lanes import multiply_abreast, multiply_twisted_abreast, rows_of, solve_abreast
 from ..simd import LANES, every, load, store
 from ..system.core import drive
 from .abreast_room import add_push, follow_abreast, kept, predicted, sizes_of, turn_abreast
 from .ahead import look_ahead
-from .edge import corrected_at_edge, edge_anew, solve_rows, to_local_abreast, to_shadows_abreast
+from .edge import corrected_at_edge, edge_anew, multiply_stiffness, solve_rows, to_shadows_abreast
 from .foreseen import foresee
 from .friction import add_remembered, bring, remember_changes, remember_group
+from .lacking import columns_anew, to_local_abreast
 from .mixing_abreast import X, mixed, taken
 from .rare import add_slopes_along, add_slopes_beside_all
 from .scheme import coefficients
@@ -56,10 +56,8 @@ def products(core, m, K, C, W, moves, room):
     d, r, supports = room.d, room.r, core.supports
     for i in range(r.shape[0]):
         store(every(0.0), r, i)
-    add_product(core, K, d[0], room)
-    if W.shape[0] > 0:
-        own = room.seen if supports.rot_slot.shape[0] > 0 else d[0]
-        multiply_twisted_abreast(core.factor, W, own, r, core.joints.first)
+    see(core, d[0], room)
+    multiply_stiffness(core, (K, C, W), room.seen if supports.rot_slot.shape[0] > 0 else d[0], room)
     if moves:
         add_product(core, m.M, d[2], room)
     if m.damped:
@@ -251,9 +249,12 @@ def not_silent(core, m, factor, push, n, first, count, room):
 
 @inline_kernel
 def solved(
-    core, m, factor, matrices, x, turn, push, gap, friction, n, first, joined, at_once, edge, room, B, G
+    core, m, factor, matrices, left, x, turn, push, gap, friction, n, first, joined, at_once, edge, room, B, G
 ):
-    """Corrections of predicted sensitivities, perhaps ``at_once``; a status."""
+    """Corrections of predicted sensitivities, perhaps ``at_once``; a status.
+
+    ``left``: what of W is not in the factors.
+    """
     joints, count = core.joints, min(LANES, push.shape[0] - first)
     rough = m.rough.table.shape[0] > 0
     jointed = m.joined.table.shape[0] > 0
@@ -261,7 +262,7 @@ def solved(
     known = known and (not jointed or all_beside(core, m))
     projects = joined.projects and joints.multipliers.shape[0] > 0
     enough = DIFFERENCED if rough else ENOUGH
-    again = matrices[2].shape[0] > 0 or jointed
+    again = left.shape[0] > 0 or jointed
     foresees = m.outside and known and not projects
     mixes = room.mix.shape[0] > 0 and not foresees
     for k in range(LANES):
@@ -270,7 +271,7 @@ def solved(
         if mixes:
             taken(core.weight.shape[0], room.d, room.mix, X)
         if round > 0 and known and not projects:
-            out_again(core, m, matrices[2], x, room, B, G)
+            out_again(core, m, left, x, room, B, G)
         else:
             moves = not at_once or turn.shape[0] > 0
             out_of_balance(core, m, matrices, x, turn, push, friction, n, first, moves, room)
@@ -296,9 +297,9 @@ def solved(
 
 
 @inline_kernel
-def takes_one(m, edge):
+def takes_one(m, edge, left):
     """Whether one correction is all: what the factors of a step lack of its matrix is known, or nothing."""
-    whole = m.W.shape[0] == 0 and m.lossy.table.shape[0] == 0 and m.rough.table.shape[0] == 0
+    whole = left.shape[0] == 0 and m.lossy.table.shape[0] == 0 and m.rough.table.shape[0] == 0
     return whole and not m.turning and (m.joined.table.shape[0] == 0 or edge.c.shape[1] > 0)
 
 
@@ -329,7 +330,7 @@ def follow_steps(core, m, ahead, room, edge, tables, way, push, gap, turn, h, sc
     Steps done and the status of the last one.
     """
     B, G = coefficients(h, scheme)
-    at_once, friction = takes_one(m, edge), ahead.friction
+    friction, plain = ahead.friction, m.joined.table.shape[0] == 0
     level = core.joints.level
     level[0], level[1], level[2] = joined.w0, joined.w1, joined.w2
     for n in range(way.q.shape[0]):
@@ -338,19 +339,23 @@ def follow_steps(core, m, ahead, room, edge, tables, way, push, gap, turn, h, sc
             bad = look_ahead(core, m, ahead, tables, way, n, B, G, False)
             if bad >= 0:
                 return n + bad, SINGULAR
-        factor = factor_of(core.factor, ahead.eight, lane)
+        whole = ahead.whole[0] > 0.0
+        factor = rows_of(core.factor, ahead.eight, lane, whole)
         matrices = (ahead.K[lane], ahead.C[lane], ahead.W[lane])
+        left = ahead.W[lane, 0:0] if whole else ahead.W[lane]
+        few = takes_one(m, edge, left)
         x = (way.q[n], way.v[n], way.a[n])
         drive(core.supports, core.loads.value, tables, n, x[0], x[1], x[2])
         bring(friction, n)
-        if at_once and edge.c.shape[1] > 0:
+        few = few and (plain or columns_anew(core, m, edge.columns, x, room.r, G / B, 1.0 / B))
+        if few and not plain:
             own = (joined, edge, room, G / B, 1.0 / B)
             if not edge_anew(core, m, factor, matrices, x, *own):
                 return n, SINGULAR
         for g in range(s.shape[0]):
-            predicted(s[g], room.d, h, scheme, 0.0 if at_once else 1.0)
-            axes, first, own = turn[g], LANES * g, (joined, at_once, edge, room, B, G)
-            status = solved(core, m, factor, matrices, x, axes, push, gap, friction, n, first, *own)
+            predicted(s[g], room.d, h, scheme, 0.0 if few else 1.0)
+            axes, first, own = turn[g], LANES * g, (joined, few, edge, room, B, G)
+            status = solved(core, m, factor, matrices, left, x, axes, push, gap, friction, n, first, *own)
             if status != OK:
                 return n, status
             follow_abreast(core.supports, room.d)

@@ -37,6 +37,7 @@ class Abreast(NamedTuple):
     place: IntArray  # (1, 8) where the lanes of eight parameters begin in an array of all
     mix: FloatArray  # (ROOM, size, 8) of ancf.solvers.mixing_abreast, or (0, size, 8)
     first: FloatArray  # (8,) the size of the first correction that it mixes, squared
+    block: FloatArray  # (2, 36) of a product
 
 
 def room_for(size: int, mixes: bool = False) -> Abreast:
@@ -47,7 +48,8 @@ def room_for(size: int, mixes: bool = False) -> Abreast:
     place = np.zeros((1, LANES), dtype=np.int64)
     vectors = ROOM if mixes else 0
     mix = lane_rows(vectors * size).reshape(vectors, size, LANES)
-    return Abreast(d, r, seen, before, open, norm, sizes, shift, last, ratio, used, rows, place, mix, first)
+    one = before, open, norm, sizes, shift, last, ratio, used, rows
+    return Abreast(d, r, seen, *one, place, mix, first, np.zeros((2, 36)))
 
 
 def abreast(rows: FloatArray) -> FloatArray:

@@ -10,6 +10,7 @@ from ..arrays import FloatArray
 from ..batches import add_tangents
 from ..compiled import inline_kernel
 from ..linalg.eight import Eight, allocate_eight, factorise_eight
+from ..linalg.eight_twisted import Twisted, allocate_twisted, factorise_twisted
 from ..records import recorded
 from ..simd import LANES
 from ..system.core import Core, drive, restrict
@@ -25,6 +26,9 @@ class Ahead(NamedTuple):
     C: FloatArray  # (8, values)
     W: FloatArray  # (8, values or none), see Matrices
     eight: Eight  # all of M/B + (G/B) C + K
+    twisted: Twisted  # for W, if there is some
+    turned: FloatArray  # (8, values or none) W along local axes; without such W itself
+    whole: FloatArray  # (1,) whether W is in the factors, else 0
     last: FloatArray  # (2, size) what velocities added to K^T lambda in the last steps of an adjoint
     rate: FloatArray  # (1,) by which corrections of lambda shrink, at most
     friction: Friction  # that remembers the way
@@ -35,7 +39,9 @@ def ahead_of(core: Core, m: Matrices) -> Ahead:
     K, C = np.zeros((2, LANES, core.A.size))
     last = np.zeros((2, m.work.shape[1]))
     W, eight = np.zeros((LANES, m.W.size)), allocate_eight(core.factor)
-    return Ahead(K, C, W, eight, last, np.zeros(1), no_friction())
+    twisted = allocate_twisted(core.factor, bool(m.W.size))
+    turned = W.copy() if len(core.supports.rot_slot) else W  # products take nothing from what is held
+    return Ahead(K, C, W, eight, twisted, turned, np.zeros(1), last, np.zeros(1), no_friction())
 
 
 @inline_kernel
@@ -72,10 +78,24 @@ def exact_parts(core, m, K, C, W, A, q, v, c_mass, c_damping):
 
 
 @inline_kernel
+def turn_twists(core, ahead, count):
+    """Fill ``turned`` with W along local axes and without held unknowns."""
+    supports, turned = core.supports, ahead.turned
+    for k in range(count):
+        if supports.rot_slot.shape[0] > 0:
+            for i in range(turned.shape[1]):
+                turned[k, i] = ahead.W[k, i]
+        restrict(supports, turned[k])
+        for i in range(supports.held_one.shape[0]):
+            turned[k, supports.held_one[i]] = 0.0
+
+
+@inline_kernel
 def look_ahead(core, m, ahead, tables, way, first, B, G, both):
     """Fill the matrices of the steps from ``first`` on; the number of the first singular one, or -1.
 
-    ``both``: vectors are to be solved for, not parameters abreast.
+    ``both``: vectors are to be solved for, not parameters abreast.  For these W is in the factors, where the
+    matrices allow it.
     """
     count = min(LANES, way.q.shape[0] - first)
     for k in range(count):
@@ -84,5 +104,10 @@ def look_ahead(core, m, ahead, tables, way, first, B, G, both):
         bring(ahead.friction, n)
         x = (way.q[n], way.v[n])
         matrices_at(core, m, ahead.K[k], ahead.C[k], ahead.W[k], ahead.eight.A[k], x[0], x[1], B, G)
-    definite = core.joints.multipliers.shape[0] == 0
+    definite, ahead.whole[0] = core.joints.multipliers.shape[0] == 0, 0.0
+    if definite and not both and m.W.shape[0] > 0:
+        turn_twists(core, ahead, count)
+        if factorise_twisted(core.factor, ahead.eight, ahead.twisted, ahead.turned, count):
+            ahead.whole[0] = 1.0
+            return -1
     return factorise_eight(core.factor, ahead.eight, count, definite, both)

@@ -1,12 +1,12 @@
-"""Sensitivities through few rows of joints, solved at once: what the factors of a step lack is of low rank.
+"""Sensitivities through few rows of joints and contacts, at once: what factors of a step lack is of low rank.
 
-The factors are of A, in which the tangents of the joints leave out what velocities and friction do, in the
-rows of multipliers and of places of sliding joints alone: the matrix of the step is T = A + E N, with E the
-columns of the unit matrix for these rows.  A formulation that shifts positions adds W_m gamma to them, where
+The factors are of A, in which the tangents of joints leave out what velocities and friction do, and contacts
+are not: the matrix of the step is T = A + E P with few columns E, see :mod:`ancf.solvers.lacking`.  Of joints
+these are columns of the unit matrix.  A formulation that shifts positions adds W_m gamma to them, where
 W = A^-1 E and W_m are its columns for the multipliers, so that C_q s_q + C_p = 0.  A correction c = c_0 - W
 eta - V gamma, with c_0 = A^-1 r and V = A^-1 T_q W_m, is then that of both equations if
 
-    eta = N c,      C_q (c + W_m gamma) = C_q s_q + C_p,
+    eta = P c,      C_q (c + W_m gamma) = C_q s_q + C_p,
 
 a few numbers by parameter (Woodbury's formula, with the shift inside).  W, V and the inverse of the small
 matrix are made once a step for all parameters; the columns of W and V are the lanes of what sensitivities
@@ -20,40 +20,38 @@ from typing import NamedTuple
 import numpy as np
 
 from ..arrays import FloatArray
+from ..batches import BESIDE
 from ..compiled import formula, inline_kernel
 from ..linalg.eight import lane_rows
-from ..linalg.lanes import multiply_abreast, multiply_twisted_abreast, solve_abreast
+from ..linalg.lanes import multiply_abreast, multiply_both_abreast, solve_abreast
 from ..records import recorded
 from ..simd import LANES, every, load, store
-from .abreast_room import follow_abreast
-from .rare import add_slopes_along, add_slopes_beside_all
+from .lacking import Columns, along_columns, beside, columns_for, none, to_local_abreast, with_rates
+from .rare import add_slopes_along
+from .sensitivity import Matrices
 
 
 @recorded
 class Edge(NamedTuple):
-    """What the few rows of a step do."""
+    """What the few columns of a step do."""
 
     W: FloatArray  # (3, size, 8) columns, and what they move velocities and accelerations by
     V: FloatArray  # (3, size, 8)
     c: FloatArray  # (3, size, 8) corrections by parameter
     small: FloatArray  # (16, 32) matrix of eta and gamma, reduced, and behind it its inverse
-    given: FloatArray  # (16, 8) N c_0 and C_q s_q + C_p by parameter
+    columns: Columns
+    given: FloatArray  # (16, 8) P c_0 and C_q s_q + C_p by parameter
     found: FloatArray  # (16, 8) eta and gamma
 
 
-def edge_for(size: int, rows: int) -> Edge:
-    """Room for a model with so many rows; none for those with none or too many."""
-    size = size if 0 < rows <= LANES else 0
+def edge_for(size: int, m: Matrices) -> Edge:
+    """Room for a model with its matrices; none where more is lacking than few columns."""
+    known = len(m.joined.table) > 0 and bool(np.all(m.joined.table[:, BESIDE]))
+    columns = columns_for(size if known else 0, m.edge, m.touching)
+    size = size if known and (m.touching or columns.number[0]) and len(m.edge) <= LANES else 0
     W, V, c = (lane_rows(3 * size).reshape(3, size, LANES) for _ in range(3))
     given, found = lane_rows(2 * LANES), lane_rows(2 * LANES)
-    return Edge(W, V, c, np.zeros((2 * LANES, 4 * LANES)), given, found)
-
-
-@formula
-def none(r):
-    """Set all lanes to zero."""
-    for i in range(r.shape[0]):
-        store(every(0.0), r, i)
+    return Edge(W, V, c, np.zeros((2 * LANES, 4 * LANES)), columns, given, found)
 
 
 @formula
@@ -64,16 +62,6 @@ def to_shadows_abreast(supports, r):
             i, j = supports.rot_slot[k] + c, supports.rot_shadow[k] + c
             store(load(r, j) + load(r, i), r, j)
             store(every(0.0), r, i)
-
-
-@formula
-def to_local_abreast(supports, r):
-    """Components along local axes, as :func:`ancf.system.core.to_local`."""
-    for k in range(supports.rot_slot.shape[0]):
-        i, j = supports.rot_slot[k], supports.rot_shadow[k]
-        for c in range(3):
-            R = supports.rot_R[k, 0]
-            store(R[0, c] * load(r, j) + R[1, c] * load(r, j + 1) + R[2, c] * load(r, j + 2), r, i + c)
 
 
 @formula
@@ -91,21 +79,8 @@ def solve_rows(m, factor, room):
 def spread(core, r, x, by_v, by_a):
     """x = r as a change of positions, with its share in velocities and accelerations; shadows follow."""
     for i in range(core.weight.shape[0]):
-        c = load(r, i)
-        store(c, x, 0, i)
-        store(by_v * c, x, 1, i)
-        store(by_a * c, x, 2, i)
-    for k in range(core.joints.multipliers.shape[0]):
-        store(every(0.0), x, 1, core.joints.multipliers[k])
-        store(every(0.0), x, 2, core.joints.multipliers[k])
-    follow_abreast(core.supports, x)
-
-
-@inline_kernel
-def beside(core, m, x, d, r):
-    """r = N d."""
-    none(r)
-    add_slopes_beside_all(m.joined, x[0], x[1], x[2], d, r, core.ws)
+        store(load(r, i), x, 0, i)
+    with_rates(core, x, by_v, by_a)
 
 
 @inline_kernel
@@ -118,6 +93,15 @@ def positions(core, m, x, joined, d, r):
     level[0], level[1], level[2] = joined.w0, joined.w1, joined.w2
 
 
+@formula
+def multiply_stiffness(core, matrices, x, room):
+    """Add K x, and W x if there is some, to r."""
+    if matrices[2].shape[0] > 0:
+        multiply_both_abreast(core.factor, matrices[0], matrices[2], x, room.r, core.joints.first, room.block)
+    else:
+        multiply_abreast(core.factor, matrices[0], x, room.r, core.joints.first)
+
+
 @inline_kernel
 def stiffened(core, m, matrices, x, d, room):
     """r = T_q d in components of the solve, of a change d of positions alone; whose shadows are filled."""
@@ -128,9 +112,7 @@ def stiffened(core, m, matrices, x, d, room):
     for k in range(supports.rot_slot.shape[0]):
         for c in range(3):
             store(load(d, 0, supports.rot_shadow[k] + c), room.seen, supports.rot_slot[k] + c)
-    multiply_abreast(core.factor, matrices[0], room.seen, r, core.joints.first)
-    if matrices[2].shape[0] > 0:
-        multiply_twisted_abreast(core.factor, matrices[2], room.seen, r, core.joints.first)
+    multiply_stiffness(core, matrices, room.seen, room)
     to_shadows_abreast(supports, r)
     add_slopes_along(m.joined, x[0], x[1], x[2], d, r, core.ws)
     to_local_abreast(supports, r)
@@ -167,17 +149,19 @@ def invert(A, n):
 @inline_kernel
 def edge_anew(core, m, factor, matrices, x, joined, edge, room, by_v, by_a):
     """Make W, V and the small inverse of a step; whether they exist."""
-    r, W, V, A, count = room.r, edge.W, edge.V, edge.small, m.edge.shape[0]
-    own = core.joints.multipliers.shape[0] if joined.projects else 0
+    r, W, V, A, part, columns = room.r, edge.W, edge.V, edge.small, edge.given, edge.columns
+    count, own = columns.number[0], core.joints.multipliers.shape[0] if joined.projects else 0
     none(r)
-    for k in range(count):
-        r[m.edge[k], k] = 1.0
+    for i in range(columns.number[1]):
+        for k in range(count):
+            r[columns.row[i], k] = columns.base[i, k]
     solve_rows(m, factor, room)
     spread(core, r, W, by_v, by_a)
     beside(core, m, x, W, r)
+    along_columns(columns, r, part)
     for i in range(count):
         for j in range(count):
-            A[i, j] = r[m.edge[i], j] + (1.0 if i == j else 0.0)
+            A[i, j] = part[i, j] + (1.0 if i == j else 0.0)
     if own == 0:
         return invert(A, count)
     spread(core, W[0], V, 0.0, 0.0)
@@ -187,9 +171,10 @@ def edge_anew(core, m, factor, matrices, x, joined, edge, room, by_v, by_a):
     solve_rows(m, factor, room)
     spread(core, r, V, by_v, by_a)
     beside(core, m, x, V, r)
+    along_columns(columns, r, part)
     for i in range(count):
         for j in range(own):
-            A[i, count + j] = r[m.edge[i], j]
+            A[i, count + j] = part[i, j]
     positions(core, m, x, joined, V, r)
     for i in range(own):
         for j in range(own):
@@ -206,29 +191,21 @@ def edge_anew(core, m, factor, matrices, x, joined, edge, room, by_v, by_a):
 @inline_kernel
 def corrected_at_edge(core, m, factor, x, gap, n, first, lanes, joined, edge, room, by_v, by_a):
     """Correct the sensitivities d, which are out of balance by r, for both equations."""
-    r, d, c, count = room.r, room.d, edge.c, m.edge.shape[0]
+    r, d, c, count = room.r, room.d, edge.c, edge.columns.number[0]
     own = core.joints.multipliers.shape[0] if joined.projects else 0
     solve_rows(m, factor, room)
     spread(core, r, c, by_v, by_a)
-    for k in range(3):
-        for i in range(d.shape[1]):
-            store(load(d, k, i) - load(c, k, i), d, k, i)
     beside(core, m, x, c, r)
-    for k in range(count):
-        store(load(r, m.edge[k]), edge.given, k)
+    along_columns(edge.columns, r, edge.given)
     if own > 0:
-        positions(core, m, x, joined, d, r)
-        for k in range(own):
-            for lane in range(lanes):
-                r[m.edge[k], lane] += gap[first + lane, n, m.edge[k]]
-            store(load(r, m.edge[k]), edge.given, count + k)
+        add_gaps(core, m, x, gap, n, first, lanes, joined, edge, room, own)
     for i in range(count + own):
         total = every(0.0)
         for j in range(count + own):
             total = total + edge.small[i, count + own + j] * load(edge.given, j)
         store(total, edge.found, i)
     for i in range(core.weight.shape[0]):
-        change, shift = every(0.0), every(0.0)
+        change, shift = load(c, 0, i), every(0.0)
         for k in range(count):
             change = change - edge.W[0, i, k] * load(edge.found, k)
         for k in range(own):
@@ -241,3 +218,19 @@ def corrected_at_edge(core, m, factor, x, gap, n, first, lanes, joined, edge, ro
             store(load(d, 0, i) - change - shift, d, 0, i)
             store(load(d, 1, i) - by_v * change, d, 1, i)
             store(load(d, 2, i) - by_a * change, d, 2, i)
+
+
+@inline_kernel
+def add_gaps(core, m, x, gap, n, first, lanes, joined, edge, room, own):
+    """Take the correction c from d, and put what the constraints are off by then behind what is given."""
+    r, d, c, count = room.r, room.d, edge.c, edge.columns.number[0]
+    for k in range(3):
+        for i in range(d.shape[1]):
+            store(load(d, k, i) - load(c, k, i), d, k, i)
+    for i in range(d.shape[1]):
+        store(every(0.0), c, 0, i)
+    positions(core, m, x, joined, d, r)
+    for k in range(own):
+        for lane in range(lanes):
+            r[m.edge[k], lane] += gap[first + lane, n, m.edge[k]]
+        store(load(r, m.edge[k]), edge.given, count + k)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from ..compiled import kernel
 from ..simd import LANES, every, store
-from .edge import to_local_abreast
 from .friction import add_remembered, remember_changes, remember_group
+from .lacking import to_local_abreast
 
 
 @kernel

@@ -15,6 +15,7 @@ from ..batches import (
     CHANGES,
     CHOICE,
     KEEPING,
+    MEASURED,
     MEMORY_BACK,
     MEMORY_WORK,
     NUMBERS,
@@ -43,6 +44,7 @@ from ..compiled import (
     choose_memory,
     inline_kernel,
     remember_along,
+    take_measured_slopes,
     take_memory_back,
     take_memory_work,
 )
@@ -54,6 +56,7 @@ _changes, _products = caller_of(add_changes), caller_of(add_tangent_work)
 _choose, _memory_slopes = caller_of(choose_memory), caller_of(add_memory_slopes)
 _along_memory, _memory_changes = caller_of(remember_along), caller_of(add_memory_changes)
 _memory_work, _memory_back = caller_of(take_memory_work), caller_of(take_memory_back)
+_measured = caller_of(take_measured_slopes)
 
 
 def knowing(stub: Any, batches: Iterable[Any], *others: Any) -> Batches:
@@ -180,3 +183,10 @@ def take_memory_back_of(batches, k, q, v, z, by_q, by_v, numbers, ws):
     """``take_memory_back`` of one of the :class:`Batches`."""
     table = batches.table
     _memory_back(table[k, MEMORY_BACK], table[k, 0], (q, v, z, by_q, by_v, numbers, ws))
+
+
+@inline_kernel
+def take_measured_slopes_of(batches, k, q, v, dq, dv, out):
+    """``take_measured_slopes`` of one of the :class:`Batches`."""
+    table = batches.table
+    _measured(table[k, MEASURED], table[k, 0], (q, v, dq, dv, out))

@@ -13,12 +13,12 @@ import numpy as np
 
 from ..arrays import FloatArray, IntArray
 from ..batches import Batches, measure_all
-from ..compiled import formula, kernel, measure
+from ..compiled import does_something, formula, kernel, measure, take_measured_slopes
 from ..contact.rubbed import RUBBED
 from ..records import recorded
 from ..system.core import residual
 from ..system.system import System
-from .rare import knowing
+from .rare import knowing, take_measured_slopes_of
 
 
 @recorded
@@ -145,3 +145,41 @@ def sample_slopes(
                 sample(sampling, room[0], room[1], row)
                 for i in range(row.shape[0]):
                     out[m, i] += places[k, 1] / e * row[i]
+
+
+class Measured(NamedTuple):
+    """Batches that know the slopes of what they measure, and where in ``measured`` they have it."""
+
+    batches: Batches
+    begin: IntArray  # (batches + 1,)
+    slopes: FloatArray  # room
+
+
+def measured_of(sampling: Sampling) -> Measured | None:
+    """The batches of a sampling, or None if not all know these slopes."""
+    own: tuple[Any, ...] = tuple(sampling.batches)
+    if not all(does_something(type(batch), take_measured_slopes) for batch in own):
+        return None
+    places = [(batch.found.ctypes.data - sampling.measured.ctypes.data) // 8 for batch in own]
+    ends = [place + batch.found.size for place, batch in zip(places, own, strict=True)]
+    begin = np.array([*places, *ends[-1:]], dtype=np.int64)
+    return Measured(knowing(take_measured_slopes, own), begin, np.zeros(len(sampling.measured)))
+
+
+@kernel
+def measured_slopes(
+    known: Measured,
+    entries: IntArray,
+    q: FloatArray,
+    v: FloatArray,
+    d: FloatArray,
+    first: int,
+    out: FloatArray,
+) -> None:
+    """Add to rows of samples, from entry ``first`` on, what is measured, see :func:`sample_slopes`."""
+    for m in range(q.shape[0]):
+        for k in range(known.begin.shape[0] - 1):
+            own = known.slopes[known.begin[k] : known.begin[k + 1]]
+            take_measured_slopes_of(known.batches, k, q[m], v[m], d[m, 0], d[m, 1], own)
+        for i in range(entries.shape[0]):
+            out[m, first + i] += known.slopes[entries[i]]

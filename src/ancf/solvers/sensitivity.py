@@ -72,6 +72,7 @@ class Matrices(NamedTuple):
     alpha: FloatArray  # of rows of joints with such, see joint, (k,)
     row: IntArray  # their multipliers, (k,)
     edge: IntArray  # all multipliers, then places of sliding joints, (k,): rows of joints
+    touching: bool  # there are others than joints among the joined, of which matrices have nothing or not all
 
 
 @recorded
