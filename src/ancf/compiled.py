@@ -381,7 +381,7 @@ def _choose_by_kind(stub: Callable[..., Any]) -> None:
 
 
 def does_something(batch_type: type, stub: Callable[..., Any]) -> bool:
-    """Whether an operation of a kind of batch does anything; the last ones of ``_STUBS`` not all kinds have."""
+    """Whether an operation of a kind of batch does anything; not all kinds have the last of ``_STUBS``."""
     if (batch_type, add_force) not in _DOES:
         raise TypeError(f"no operations for {batch_type.__name__}")
     return _DOES.get((batch_type, stub), no_energy) not in _NOTHING
