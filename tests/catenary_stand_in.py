@@ -88,6 +88,7 @@ def form(spans=SPANS):
         line=line(spans),
         wave_speed=np.sqrt(20e3 / 1.35),
         dropper_load=loads,
+        dropper_force=loads,
         dropper_length=lengths,
         dropper_natural=lengths - loads / 1e5,
         cut_length=lengths - loads / 1e5,

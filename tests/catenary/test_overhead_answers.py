@@ -228,6 +228,17 @@ class TestAcceptance:
         wanted = "outside: mean force Fm (70.0 < 78.8 N), standard deviation (34.2 > 32.3 N)"
         assert verdict(rows) == f"{wanted}, speed / wave speed (0.900 > 0.700)"
 
+    @pytest.mark.parametrize("mean", [80.03, 99.98, 114.16, 120.0, 131.149])
+    @pytest.mark.parametrize("share", [0.2985, 0.29985, 0.29999, 0.3001, 0.302])
+    def test_deviation_is_judged_once(self, run, mean, share):
+        """The limit is 0.3 Fm, as that of sigma / Fm: no rounding turns one of both verdicts."""
+        found = statistics(run)
+        forces = {"mean_force": mean, "deviation": share * mean, "relative_deviation": share}
+        rows = [dataclasses.replace(q, value=forces.get(q.key, q.value)) for q in found.quantities]
+        given = dataclasses.replace(found, quantities=tuple(rows))
+        inside = by_key(acceptance(run, found=given))["deviation"].inside
+        assert inside == given["relative_deviation"].inside == (share <= 0.3)
+
     def test_above_the_wave_speed(self, tmp_path):
         """The closed form of the strain ends there: nothing is said of it, and all else is as it was."""
         fast = stand_in.run(speed=1.1 * np.sqrt(20e3 / 1.35), step=1e-3)

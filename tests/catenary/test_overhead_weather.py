@@ -192,7 +192,7 @@ class TestStrain:
         droppers = line.droppers
         weight = line.gravity * (droppers.clamp_contact + 0.5 * droppers.mass * done.form.dropper_length[j])
         bent = edge(hung) / (2.0 * np.sqrt(EI * pull))
-        assert one.rest == pytest.approx((done.form.dropper_load[j] - weight) * bent, rel=2e-3)
+        assert one.rest == pytest.approx((done.form.dropper_force[j] - weight) * bent, rel=2e-3)
         below = strain_below_strip(done, 0)
         moving = edge(hung) / (2.0 * np.sqrt(EI * (pull - hung.mass * 625.0)))
         force = Butterworth().low_pass(done.recordings[0].force, 1.0 / STEP)

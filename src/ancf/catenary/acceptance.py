@@ -130,8 +130,8 @@ def _forces(run: Run, k: int, supply: str, found: Statistics) -> Iterator[Quanti
     mean, sigma = found["mean_force"].value, found["deviation"].value
     name = f"mean force Fm, {supply}"
     yield Quantity("mean_force", name, "N", mean, low=_outwards(least, -1), high=_outwards(most, 1), tag="U")
-    limit = round(LARGEST_DEVIATION * mean, 1)
-    yield Quantity("deviation", "standard deviation, at most 0.3 Fm", "N", sigma, high=limit, tag="U")
+    name = "standard deviation, at most 0.3 Fm"
+    yield Quantity("deviation", name, "N", sigma, high=LARGEST_DEVIATION * mean, tag="U")
     highest = LARGEST[supply][0 if slow else 1]
     yield Quantity(
         "maximum", "largest force, below 20 Hz", "N", found["maximum"].value, high=highest, tag="U"

@@ -73,8 +73,8 @@ def strained(run: Run) -> bool:
     """Whether contact wires bend, and all pantographs run below their wave speeds: strains are known."""
     if not bends(run.form.line):
         return False
-    speeds = [_speed(run, k) for k in range(len(run.recordings))]
-    return all(np.isfinite(strain_of_force(wire, speed)) for wire in hanging(run) for speed in speeds)
+    fastest = [float(np.max(_speeds(run, k))) for k in range(len(run.recordings))]
+    return all(np.isfinite(strain_of_force(wire, speed)) for wire in hanging(run) for speed in fastest)
 
 
 def hanging(run: Run) -> list[Wire]:
@@ -88,13 +88,15 @@ def edge(wire: Any) -> float:
     return 0.5 * given if given is not None else 2.0 * float(np.sqrt(wire.EI / wire.EA))
 
 
-def strain_of_force(wire: Any, speed: float = 0.0) -> float:
+def strain_of_force(wire: Any, speed: Any = 0.0) -> Any:
     """Bending strain of a contact wire at a force of 1 N that stands, or moves with a speed in m/s, 1/N.
 
-    It grows without limit towards the wave speed, from where on it is endless.
+    Of several speeds an array. It grows without limit towards the wave speed, from where on it is endless.
     """
-    pull = wire.tension - wire.mass * speed**2
-    return edge(wire) / (2.0 * float(np.sqrt(wire.EI * pull))) if pull > 0.0 and wire.EI else float("inf")
+    pull = wire.tension - wire.mass * np.square(speed)
+    known = wire.EI * pull > 0.0
+    stiff = np.where(known, wire.EI * pull, 1.0)
+    return np.where(known, edge(wire) / (2.0 * np.sqrt(stiff)), np.inf)[()]
 
 
 def strain_below_strip(run: Run, pantograph: int) -> FloatArray:
@@ -103,7 +105,7 @@ def strain_below_strip(run: Run, pantograph: int) -> FloatArray:
     Of several wires that it touches the one with the largest.
     """
     recording, rate, butterworth = run.recordings[pantograph], sample_rate(run.t), Butterworth()
-    speed = _speed(run, pantograph)
+    speed = _speeds(run, pantograph)
     strains = [
         strain_of_force(wire, speed) * butterworth.low_pass(recording.force_on(k), rate)
         for k, wire in enumerate(hanging(run))
@@ -151,17 +153,18 @@ def _history(
     t = np.union1d(run.t, np.concatenate(moments))
     strain = standing * (np.interp(t, run.t, run.dropper_force[:, j]) - weight)
     for k, recording in enumerate(run.recordings):
-        speed = _speed(run, k)
-        length = np.sqrt(wire.EI / max(wire.tension - wire.mass * speed**2, 1e-9 * wire.tension))
+        speed = np.interp(t, run.t, _speeds(run, k))
+        length = np.sqrt(wire.EI / np.maximum(wire.tension - wire.mass * speed**2, 1e-9 * wire.tension))
         away = np.abs(np.interp(t, run.t, recording.position) - x)
         force = np.interp(t, run.t, contact[k])
         strain = strain + strain_of_force(wire, speed) * force * np.exp(-np.minimum(away / length, 50.0))
-    return strain, standing * (float(run.form.dropper_load[j]) - weight)
+    return strain, standing * (float(run.form.dropper_force[j]) - weight)
 
 
-def _speed(run: Run, k: int) -> float:
-    """Mean speed of a pantograph, m/s."""
-    return float(np.mean(np.abs(np.gradient(run.recordings[k].position, run.t))))
+def _speeds(run: Run, k: int) -> FloatArray:
+    """Speeds (n,) of a pantograph at all steps, m/s."""
+    made: FloatArray = np.abs(np.gradient(run.recordings[k].position, run.t))
+    return made
 
 
 def _passings(run: Run, k: int, x: float) -> FloatArray:

@@ -214,9 +214,9 @@ class Form(Pictured):
             position[self.line.dropper_stitch == k + 1] = shape.position[shape.nodes.dropper]
         return position
 
-    def with_loads(self, load: FloatArray) -> Form:
-        """The same with other loads of the droppers at rest, N."""
-        return replace(self, dropper_load=load)
+    def with_forces(self, force: FloatArray, load: FloatArray) -> Form:
+        """The same with other forces of the droppers at rest, and loads at their lower ends, N."""
+        return replace(self, dropper_force=force, dropper_load=load)
 
     def schedule(self) -> list[Row]:
         """The dropper schedule, one row for each dropper."""

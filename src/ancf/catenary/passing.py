@@ -139,7 +139,7 @@ def dropper_forces(run: Run, over: slice | None = None) -> list[DropperForces]:
             at_zero(force if slack and not gone else np.ones_like(force), step),
             gone,
         )
-        for place, rest, force, gone in zip(places, run.form.dropper_load, part.T, broken, strict=True)
+        for place, rest, force, gone in zip(places, run.form.dropper_force, part.T, broken, strict=True)
     ]
 
 

@@ -37,7 +37,7 @@ def recorded(result: ancf.Result, ready: Ready, said: dict[str, Any]) -> Run:
     broken = broken_of(overhead)
     cpu = plan.spent + result.stats.cpu_seconds
     return Run(
-        form=overhead.form.with_loads(rest.load) if plan.door.changed else overhead.form,
+        form=overhead.form.with_forces(rest.force, rest.load) if plan.door.changed else overhead.form,
         pantographs=[c.pantograph for c in collectors],
         speed=(float(plan.travel.distance(t[-1])) / simulated),
         t=t,

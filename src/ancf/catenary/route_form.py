@@ -129,11 +129,11 @@ class RouteForm(Pictured):
         """Places (n, 3) of each contact wire on the track, m."""
         return [place for form in self.shifted for place in form.contact_places]
 
-    def with_loads(self, load: FloatArray) -> RouteForm:
-        """The same with other loads of the droppers at rest, N."""
+    def with_forces(self, force: FloatArray, load: FloatArray) -> RouteForm:
+        """The same with other forces of the droppers at rest, and loads at their lower ends, N."""
         cuts = np.cumsum([form.dropper_load.size for form in self.forms])[:-1]
-        parts = zip(self.forms, np.split(load, cuts), strict=True)
-        return replace(self, forms=tuple(form.with_loads(part) for form, part in parts))
+        parts = zip(self.forms, np.split(force, cuts), np.split(load, cuts), strict=True)
+        return replace(self, forms=tuple(form.with_forces(*own) for form, *own in parts))
 
     def schedule(self) -> list[Row]:
         """The dropper schedule, spans counted over all sections."""

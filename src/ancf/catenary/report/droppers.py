@@ -77,7 +77,7 @@ def _one(axes: Axes, content: Content, j: int) -> None:
     run = content.run
     force, x = run.dropper_force[:, j], dropper_places(run)[j][2]
     axes.plot(run.t, force, color=style.BLUE, linewidth=0.9, label="force")
-    axes.axhline(float(run.form.dropper_load[j]), linestyle=":", label="at rest", **marks.FINE)
+    axes.axhline(float(run.form.dropper_force[j]), linestyle=":", label="at rest", **marks.FINE)
     slack = (force <= 0) & run.form.line.droppers.slack & (not broken_places(run)[j])
     axes.fill_between(
         run.t, 0, 1, where=slack, transform=axes.get_xaxis_transform(), color=style.ORANGE, alpha=0.35,
