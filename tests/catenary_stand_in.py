@@ -26,6 +26,8 @@ def line(spans=SPANS):
         spans=[SimpleNamespace(length=SPAN, droppers=DROPPERS, pre_sag=(0.0,) * 9)] * spans,
         supports=supports,
         length=SPAN * spans,
+        begin=0.0,
+        end=SPAN * spans,
         reach=(
             np.concatenate([[-np.inf], 0.5 * (supports[1:] + supports[:-1])]),
             np.concatenate([0.5 * (supports[1:] + supports[:-1]), [np.inf]]),

@@ -63,15 +63,15 @@ def add_sideways(model: ancf.Model, wire: Strung, pieces: list[Piece]) -> None:
                 model.add_distributed_load(beam, (0.0, per_arc, 0.0), between=(x0, x1))
 
 
-def add_wind(model: ancf.Model, air: Conditions, length: float) -> None:
-    """Wind across the track as a fluid in which the wires stand, with gusts if they are wanted."""
+def add_wind(model: ancf.Model, air: Conditions, extent: tuple[float, float]) -> None:
+    """Wind across the track as a fluid in which the wires stand, with gusts over an extent in m if wanted."""
     gusts = None
     if air.turbulence > 0.0:
         gusts = ancf.Gusts.von_karman(
             speed=abs(air.wind),
             deviation=air.turbulence * abs(air.wind),
             length=air.gust_length,
-            extent=(0.0, length),
+            extent=extent,
             direction=math.copysign(0.5 * math.pi, air.wind),
             line=(1.0, 0.0, 0.0),
             spacing=GUST_SPACING,

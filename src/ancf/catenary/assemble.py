@@ -225,7 +225,7 @@ def assembled(
     _add_messenger_supports(overhead, found)
     add_arms(overhead, found)
     if own and found.settled and line.conditions.wind != 0.0:
-        add_wind(model, line.conditions, line.length)
+        add_wind(model, line.conditions, (line.begin, line.end))
     return overhead
 
 

@@ -288,6 +288,16 @@ class Line:
         return float(self.supports[-1])
 
     @property
+    def begin(self) -> float:
+        """Track position of the first support, m: 0; that of a route may be another."""
+        return 0.0
+
+    @property
+    def end(self) -> float:
+        """Track position of the last support, m."""
+        return self.length
+
+    @property
     def twin(self) -> bool:
         """Whether there are two contact wires side by side."""
         return self.contact_spacing is not None

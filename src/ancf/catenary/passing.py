@@ -127,7 +127,7 @@ def dropper_forces(run: Run, over: slice | None = None) -> list[DropperForces]:
 
     Those that push and those that are broken are never slack.
     """
-    step, slack = 1.0 / sample_rate(run.t), run.form.line.droppers.slack
+    step, slacken = 1.0 / sample_rate(run.t), can_slacken(run)
     part = run.dropper_force[over if over is not None else slice(None)]
     places, broken = dropper_places(run), broken_places(run)
     return [
@@ -139,7 +139,9 @@ def dropper_forces(run: Run, over: slice | None = None) -> list[DropperForces]:
             at_zero(force if slack and not gone else np.ones_like(force), step),
             gone,
         )
-        for place, rest, force, gone in zip(places, run.form.dropper_force, part.T, broken, strict=True)
+        for place, rest, force, gone, slack in zip(
+            places, run.form.dropper_force, part.T, broken, slacken, strict=True
+        )
     ]
 
 
@@ -148,6 +150,11 @@ def dropper_places(run: Run) -> list[tuple[int, int, float]]:
     line = run.form.line
     places = zip(line.dropper_span, line.dropper_number, line.dropper_x, strict=True)
     return [(int(span) + 1, int(number) + 1, float(x)) for span, number, x in places]
+
+
+def can_slacken(run: Run) -> list[bool]:
+    """Of each dropper whether it carries tension only, as those of its section do."""
+    return [part.droppers.slack for part in run.form.line.parts for _ in range(len(part.dropper_x))]
 
 
 def broken_places(run: Run) -> list[bool]:

@@ -164,7 +164,7 @@ def make_plan(
         interval = _window(line, window, behind + train, train, until)
         last = interval[1] + BEYOND if until is None else until
     else:
-        interval, last = (behind + train, line.length), line.length - train
+        interval, last = (behind + train, line.end), line.end - train
     _check_sweep(shape, kinds, behind, last + train)
     return Plan(
         form=shape,
@@ -219,11 +219,16 @@ def _units(pantograph: Any, spacing: Any) -> list[tuple[Pantograph, float]]:
 
 def _start(line: Line | Route, given: float | None) -> float:
     """Track position of the last pantograph at t = 0."""
-    place = START * line.spans[0].length if given is None else checks.number(given, "run.start")
-    if not 0.0 < place < line.length:
-        what = f"the last pantograph starts at {place:g} m, the line reaches from 0 to {line.length:g} m"
+    first = line.begin + START * line.spans[0].length
+    place = first if given is None else checks.number(given, "run.start")
+    if not line.begin < place < line.end:
+        what = f"the last pantograph starts at {place:g} m, {_reaches(line)}"
         raise ModelError("run.start", what)
     return place
+
+
+def _reaches(line: Line | Route) -> str:
+    return f"the line reaches from {line.begin:g} to {line.end:g} m"
 
 
 def _window(
@@ -234,9 +239,9 @@ def _window(
     ``first`` is where the first pantograph starts, ``train`` its distance from the last one, which goes on
     ``until`` there, or BEYOND the window.
     """
-    if until is not None and checks.number(until, "run.until") + train > line.length:
+    if until is not None and checks.number(until, "run.until") + train > line.end:
         what = f"is {until:g} m, the first pantograph is then at {until + train:g} m"
-        raise ModelError("run.until", what, f"the line ends at {line.length:g} m")
+        raise ModelError("run.until", what, f"the line ends at {line.end:g} m")
     room = BEYOND + train
     low, high = _middle(line, first, room) if given is None else _given(line, given, first)
     if until is not None and high > until:
@@ -246,10 +251,10 @@ def _window(
             hint += ", or give a window that ends before"
         raise ModelError("run.until", what, hint)
     ahead = high + room
-    if until is None and ahead > line.length:
+    if until is None and ahead > line.end:
         what = (
             f"the first pantograph is at {ahead:g} m when the last one has passed the window, "
-            f"beyond the end of the line at {line.length:g} m"
+            f"beyond the end of the line at {line.end:g} m"
         )
         raise ModelError("run.window", what, "use a longer line or an earlier window")
     return low, high
@@ -262,8 +267,8 @@ def _given(line: Line | Route, given: tuple[float, float], first: float) -> tupl
         what = f"begins at {low:g} m and ends at {high:g} m"
         hint = f"the smaller place first: {high:g} {low:g}" if low > high else "two places"
         raise ModelError("run.window", what, hint)
-    if not 0.0 <= low < high <= line.length:
-        what = f"is {low:g} m to {high:g} m, the line reaches from 0 to {line.length:g} m"
+    if not line.begin <= low < high <= line.end:
+        what = f"is {low:g} m to {high:g} m, {_reaches(line)}"
         raise ModelError("run.window", what)
     if first > low:
         what = f"the first pantograph starts at {first:g} m, behind the start of the window at {low:g} m"
@@ -282,14 +287,15 @@ def _middle(line: Line | Route, first: float, room: float) -> tuple[float, float
             starts = [
                 k
                 for k in range(1, spans - count)
-                if supports[k] >= first + lead and supports[k + count] + room <= line.length
+                if supports[k] >= first + lead and supports[k + count] + room <= line.end
             ]
             if starts:
-                best = min(starts, key=lambda k: abs(supports[k] + supports[k + count] - line.length))
+                twice = line.begin + line.end
+                best = min(starts, key=lambda k: abs(supports[k] + supports[k + count] - twice))
                 return float(supports[best]), float(supports[best + count])
     what = f"no span is left to evaluate: the train starts up to {first:g} m and needs {room:g} m beyond"
     hint = f"use a line longer than {line.length:g} m, or less spacing"
-    low, high = float(np.ceil(first)), float(np.floor(line.length - room))
+    low, high = float(np.ceil(first)), float(np.floor(line.end - room))
     if low < high:
         hint += f"; or give a part of a span, --window {low:g} {high:g}, window=({low:g}, {high:g})"
     raise ModelError("run.window", what, hint)

@@ -154,9 +154,19 @@ class Route:
         return np.where(np.isfinite(lowest), lowest, ends)
 
     @property
+    def begin(self) -> float:
+        """Track position of the first support, m."""
+        return self.starts[0]
+
+    @property
+    def end(self) -> float:
+        """Track position of the last support of all sections, m."""
+        return max(start + line.length for start, line in zip(self.starts, self.lines, strict=True))
+
+    @property
     def length(self) -> float:
-        """Track position of the end of the last section, m."""
-        return float(self.starts[-1] + self.lines[-1].length)
+        """From the first support to the last, m."""
+        return self.end - self.begin
 
     @property
     def dropper_x(self) -> FloatArray:

@@ -15,7 +15,7 @@ def assembled_route(found: RouteForm) -> Assembled:
     model = ancf.Model(gravity=(0.0, 0.0, -line.gravity), title=found.line.title)
     parts = [assembled(form, model=model, prefix=f"section {k + 1} ") for k, form in enumerate(found.shifted)]
     if found.settled and line.conditions.wind != 0.0:
-        add_wind(model, line.conditions, found.line.length)
+        add_wind(model, line.conditions, (found.line.begin, found.line.end))
     whole = Assembled(found, model, parts[0].contact, parts[0].messenger, parts=parts)
     for key in (
         "stitches",

@@ -42,7 +42,7 @@ class LineStepper(Stepper):
         super().__init__(made)
         self.overhead, self.collectors = begun.overhead, begun.collectors
         plan = begun.plan
-        self._end = float(plan.form.line.length)
+        self._end = plan.form.line.end
         self._last = int(plan.travel.time(self._end - max(plan.places)) / plan.step)
 
     def advance(self, steps: int = 1) -> None:

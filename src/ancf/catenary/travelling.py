@@ -72,7 +72,8 @@ def add_pantograph(
 
     """
     unit, travel = find_pantograph(pantograph), make_travel(speed, "add_pantograph.speed")
-    place = checks.between(start, "add_pantograph.start", 0.0, overhead.form.line.length)
+    line = overhead.form.line
+    place = checks.between(start, "add_pantograph.start", line.begin, line.end)
     touch = Touch(contact, contact_stiffness, contact_damping)
     lift = float(unit.force(travel.speed(0.0)))
     if height is None:

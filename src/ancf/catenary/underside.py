@@ -60,7 +60,7 @@ def random_underside(
     if count > MOST_ROWS:
         what = f"begin at {shortest:g} m, which takes {count} rows along {line.length:g} m"
         raise ModelError("random_underside.wavelengths", what, f"at most {MOST_ROWS}; units are m")
-    x = np.linspace(0.0, line.length, count)
+    x = np.linspace(line.begin, line.end, count)
     return np.column_stack([x, random_waves(spectrum, wavelengths, seed, x, "random_underside")])
 
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...viz import style
-from ..passing import broken_places, dropper_forces, dropper_places, passing_time
+from ..passing import broken_places, can_slacken, dropper_forces, dropper_places, passing_time
 from . import marks
 from .line_answer import span_of_passings
 
@@ -78,7 +78,7 @@ def _one(axes: Axes, content: Content, j: int) -> None:
     force, x = run.dropper_force[:, j], dropper_places(run)[j][2]
     axes.plot(run.t, force, color=style.BLUE, linewidth=0.9, label="force")
     axes.axhline(float(run.form.dropper_force[j]), linestyle=":", label="at rest", **marks.FINE)
-    slack = (force <= 0) & run.form.line.droppers.slack & (not broken_places(run)[j])
+    slack = (force <= 0) & can_slacken(run)[j] & (not broken_places(run)[j])
     axes.fill_between(
         run.t, 0, 1, where=slack, transform=axes.get_xaxis_transform(), color=style.ORANGE, alpha=0.35,
         linewidth=0, label="slack",

@@ -41,8 +41,8 @@ def clear(content: Content, x: FloatArray) -> BoolArray:
 
     There a wire is stiff: a force at its end is no part of what is evaluated, and would set the scale.
     """
-    (low, high), spans = content.run.window, content.run.form.line.spans
-    first, last = spans[0].length, content.run.form.line.length - spans[-1].length
+    (low, high), line = content.run.window, content.run.form.line
+    first, last = line.begin + line.spans[0].length, line.end - line.spans[-1].length
     return ((x >= low) & (x <= high)) | ((x >= first) & (x <= last))
 
 
