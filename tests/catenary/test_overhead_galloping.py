@@ -9,10 +9,14 @@ from scipy.optimize import least_squares
 import ancf
 from ancf import ModelError
 from ancf.catenary import (
+    Auxiliary,
     Conditions,
+    DropperRule,
+    Droppers,
     Line,
     Mesh,
     Rayleigh,
+    Route,
     Span,
     SteadyArm,
     Wire,
@@ -22,7 +26,7 @@ from ancf.catenary import (
     read_line,
 )
 from ancf.catenary.galloping import lift_law, said, slope_at
-from overhead_lines import TOML
+from overhead_lines import TOML, short_line
 
 LENGTH, ALPHA = 40.0, 0.05
 STRING = Wire(EA=12e6, EI=1.0, mass=0.95, tension=15e3, diameter=0.0122, drag=1.1)
@@ -37,7 +41,7 @@ def string(slope, wind, alpha=ALPHA, **changes):
     """A contact wire alone between two ends."""
     return Line(
         spans=[Span(length=LENGTH, droppers=())],
-        contact_wire=replace(STRING, lift=table(slope), **changes),
+        contact_wire=replace(STRING, **{"lift": table(slope)} | changes),
         steady_arm=SteadyArm(vertical=0.0),
         damping=Rayleigh(alpha=alpha),
         conditions=Conditions(wind=wind),
@@ -69,6 +73,63 @@ class TestCriterion:
         (damped,) = galloping(replace(plain, damping=Rayleigh(alpha=ALPHA, beta=1e-3)))
         w = 2.0 * np.pi * light.frequency
         assert damped.critical_speed / light.critical_speed == pytest.approx(1.0 + 1e-3 * w**2 / ALPHA)
+
+    @pytest.mark.parametrize("wear", [0.1, 0.3, 0.6])
+    @pytest.mark.parametrize("ice", [0.0, 0.4])
+    def test_a_worn_wire_is_lighter(self, wear, ice):
+        worn = replace(string(-4.0, 10.0), conditions=Conditions(wind=10.0, wear=wear, ice=ice))
+        (found,) = galloping(worn)
+        mass = 0.95 * (1.0 - wear) + ice
+        assert found.growth == pytest.approx(0.5 * (0.5 * 1.225 * 0.0122 * 2.9 * 10.0 / mass - ALPHA))
+        assert found.frequency == pytest.approx(np.sqrt(15e3 / mass) / (2.0 * LENGTH))
+
+    @pytest.mark.parametrize("wires", [(0,), (1,), (2,), (0, 2), (0, 1, 2)])
+    def test_of_every_wire_that_has_a_table(self, wires):
+        """Contact wire, messenger and auxiliary; the lift acts on all of them in the model too."""
+        plain = short_line(
+            droppers=Droppers(EA=2e5),
+            auxiliary=Auxiliary(
+                wire=STRING,
+                height=0.4,
+                droppers=Droppers(EA=2e5),
+                places=DropperRule(first=6.0, pitch_max=10.0),
+            ),
+        )
+        given = [
+            replace(STRING, tension=tension, lift=table(-4.0) if k in wires else None)
+            for k, tension in enumerate((20e3, 16e3, 10e3))
+        ]
+        line = replace(
+            plain,
+            contact_wire=given[0],
+            messenger_wire=given[1],
+            auxiliary=replace(plain.auxiliary, wire=given[2]),
+            conditions=Conditions(wind=20.0),
+        )
+        found = galloping(line)
+        assert [one.wire for one in found] == [
+            ("contact wire", "messenger wire", "auxiliary")[k] for k in wires
+        ]
+        longest = max(span.length for span in line.spans)
+        for one, k in zip(found, wires, strict=True):
+            assert one.frequency == pytest.approx(np.sqrt(given[k].tension / 0.95) / (2.0 * longest))
+        assert len(said(line)) == len(wires)
+
+    @pytest.mark.parametrize("sections", [(0,), (1,), (0, 1)])
+    def test_of_every_section(self, sections):
+        """A section of a route that gallops is named, whatever the first one does."""
+        calm = string(-4.0, 20.0, lift=None)
+        calm = replace(calm, spans=calm.spans * 3, system_height=0.0, stagger=0.0)
+        lines = [
+            replace(
+                calm, contact_wire=replace(calm.contact_wire, lift=table(-4.0) if k in sections else None)
+            )
+            for k in (0, 1)
+        ]
+        told = said(Route(lines=tuple(lines), starts=(0.0, LENGTH)))
+        assert [
+            f"contact wire of section {k + 1} gallops" in text for k, text in zip(sections, told, strict=True)
+        ] == [True] * len(sections)
 
     def test_slope_at_a_row_is_the_mean(self):
         rows = ((-0.2, 0.4), (0.0, 0.0), (0.1, 0.1))

@@ -33,7 +33,8 @@ from .entries import (
 from .fittings import DropperErrors, Droppers, Load, SteadyArm, Tensioner
 from .galloping import read_lift
 from .layout import OF_SUPPORTS, laid_out, lengths_of, supports_of
-from .line import Line, check_size
+from .line import Line
+from .line_parts import check_size
 from .route import Route
 from .span import DropperRule, Span
 from .stitch import StitchWire

@@ -114,20 +114,29 @@ def read_lift(path: str | Path) -> list[list[float]]:
 
 def said(line: Any) -> list[str]:
     """What is to be said of the wires of a line that gallop in its wind; nothing of others."""
+    parts = line.parts
     return [
-        f"the {found.wire} gallops in wind of {abs(line.parts[0].conditions.wind):g} m/s: dCL/da + CD = "
-        f"{found.criterion:.2f}, from {found.critical_speed:.1f} m/s on; alone its amplitude grows by "
-        f"exp({found.growth:.3g} t)"
-        for found in (galloping(line) if has_lift(line) else [])
+        f"the {found.wire}{f' of section {k + 1}' if len(parts) > 1 else ''} gallops in wind of "
+        f"{abs(part.conditions.wind):g} m/s: dCL/da + CD = {found.criterion:.2f}, from "
+        f"{found.critical_speed:.1f} m/s on; alone its amplitude grows by exp({found.growth:.3g} t)"
+        for k, part in enumerate(parts)
+        for found in (galloping(part) if has_lift(part) else [])
         if found.growth > 0.0
     ]
 
 
 def has_lift(line: Any) -> bool:
     """Whether a wire has a table of lift."""
-    part = line.parts[0]
-    wires = (part.contact_wire, part.messenger_wire)
-    return any(getattr(wire, "lift", None) is not None for wire in wires)
+    return any(
+        getattr(wire, "lift", None) is not None for part in line.parts for wire in _wires(part).values()
+    )
+
+
+def _wires(part: Any) -> dict[str, Any]:
+    """The wires on which the lift of wind acts, by what they are called."""
+    auxiliary = getattr(part, "auxiliary", None)
+    third = None if auxiliary is None else auxiliary.wire
+    return {"contact wire": part.contact_wire, "messenger wire": part.messenger_wire, "auxiliary": third}
 
 
 def slope_at(rows: Any, angle: float = 0.0) -> float:
@@ -174,6 +183,8 @@ def add_lift(model: ancf.Model, wire: Any, conditions: Any) -> None:
 def galloping(line: Any) -> list[Galloping]:
     """Den Hartog's criterion for each wire with a table of lift of a Line, or of a Route's first section.
 
+    Contact wire, as it is worn, messenger and auxiliary, with their ice.
+
     Each wire swings alone, as between its supports; droppers join wires, whose growth is then a mean of both,
     weighted by mass and amplitude.
 
@@ -186,23 +197,19 @@ def galloping(line: Any) -> list[Galloping]:
     part = line.parts[0]
     air, span = part.conditions, max(span.length for span in part.spans)
     found = []
-    for name in ("contact_wire", "messenger_wire"):
-        wire = getattr(part, name)
+    for name, wire in _wires(part).items():
         if wire is None or wire.lift is None:
             continue
-        mass, tension = (
-            wire.mass + air.ice,
-            getattr(air, f"{name.removesuffix('_wire')}_tension") or wire.tension,
-        )
+        left = 1.0 - air.wear if name == "contact wire" else 1.0
+        pulled = getattr(air, f"{name.removesuffix(' wire')}_tension", None)
+        mass, tension = left * wire.mass + air.ice, pulled or wire.tension
         w = np.pi / span * np.sqrt(tension / mass)
         slope = slope_at(wire.lift)
         damping = wire.damping / mass + part.damping.alpha + part.damping.beta * w**2
         fed = -0.5 * air.air_density * wire.diameter * (slope + wire.drag) / mass
         critical = float(damping / fed) if slope + wire.drag < -FAINT else float("inf")
         growth = float(0.5 * (fed * abs(air.wind) - damping))
-        found.append(
-            Galloping(name.replace("_", " "), slope, wire.drag, float(w / (2.0 * np.pi)), growth, critical)
-        )
+        found.append(Galloping(name, slope, wire.drag, float(w / (2.0 * np.pi)), growth, critical))
     if not found:
         hint = "lift in [contact_wire] or [messenger_wire]: rows of an angle of attack and a coefficient"
         raise ModelError("line.contact_wire.lift", "is missing, no wire has a table of its lift", hint)

@@ -16,7 +16,7 @@ from .cant import LARGEST, plumb_above
 from .conditions import COLDEST, HOTTEST, Conditions
 from .excerpt import excerpt
 from .fittings import NO_DROPPERS, DropperErrors, Droppers, Load, SteadyArm, Tensioner
-from .line_parts import check_kinds
+from .line_parts import check_kinds, check_size
 from .span import Span, of_supports, within
 from .stitch import StitchWire
 from .wire import Rayleigh, Wire
@@ -27,15 +27,6 @@ CLAMPS = ("hinged", "continuous")
 HIGHEST = 100.0  # m, of wires; more is a slip of units
 WIDEST = 20.0  # m, of staggers, those of anchors aside included
 SPACINGS = (0.01, 0.5)  # m, of twin contact wires
-#: A line of some 600 km; more is a slip that would take all memory.
-MOST_SPANS, MOST_DROPPERS = 10_000, 200_000
-
-
-def check_size(spans: int, droppers: int, where: str) -> None:
-    """Raise ModelError if a line has more spans or droppers than can be meant."""
-    for count, most, what in ((spans, MOST_SPANS, "spans"), (droppers, MOST_DROPPERS, "droppers")):
-        if count > most:
-            raise ModelError(where, f"are {count} {what} in all, at most {most} can be")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -29,6 +29,15 @@ LISTS: dict[str, type] = {"spans": Span, "loads": Load, "steady_arm": SteadyArm}
 #: Those that may be None, and those that have no default.
 MAY_LACK = ("messenger_wire", "stitch", "auxiliary", "dropper_errors")
 NEEDED = ("contact_wire", "spans", "steady_arm")
+#: A line of some 600 km; more is a slip that would take all memory.
+MOST_SPANS, MOST_DROPPERS = 10_000, 200_000
+
+
+def check_size(spans: int, droppers: int, where: str) -> None:
+    """Raise ModelError if a line has more spans or droppers than can be meant."""
+    for count, most, what in ((spans, MOST_SPANS, "spans"), (droppers, MOST_DROPPERS, "droppers")):
+        if count > most:
+            raise ModelError(where, f"are {count} {what} in all, at most {most} can be")
 
 
 def check_kinds(line: Any) -> None:
