@@ -66,6 +66,7 @@ def acceptance(
         The supply is none of these, or the run does not cover its window.
 
     """
+    passing.check_run(run, "acceptance", pantograph)
     checks.choice(supply, "acceptance.supply", tuple(MEAN_FORCE_LAW))
     numbers = statistics(run, pantograph) if found is None else found
     return [
@@ -206,9 +207,9 @@ def time_above(run: Run, levels: tuple[float, ...] = LEVELS, pantograph: int = 0
         A level is no finite number.
 
     """
-    if not levels:
+    limits = checks.array(levels, "time_above.levels", (None,))
+    if not limits.size:
         raise ModelError("time_above.levels", "is empty")
-    limits = np.array([checks.number(level, f"time_above.levels[{i}]") for i, level in enumerate(levels)])
     found = statistics(run, pantograph)
     force = found.force[found.window]
     shares: FloatArray = 100.0 * np.mean(force[:, None] > limits, axis=0)

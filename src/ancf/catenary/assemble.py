@@ -21,7 +21,10 @@ from .form import Form
 from .galloping import add_lift
 from .line import Line
 from .route_form import AnyForm
-from .shape import Strung
+from .shape import Strung, on_track
+
+#: More than any count.
+FAR = 10**9
 
 
 @dataclass(slots=True)
@@ -120,6 +123,7 @@ class Assembled:
 
     def contact_at(self, track: float) -> Point:
         """Point of the contact wire that is at a track position at rest, of several the lowest."""
+        track = on_track(track, [part.contact for part in self.parts or [self]], "contact_at")
         part = self._part(track)
         return part.contact_wire.at(part.contact.arc_at(track))
 
@@ -131,6 +135,7 @@ class Assembled:
 
     def messenger_at(self, track: float) -> Point:
         """Point of the messenger that is at a track position at rest, m."""
+        track = on_track(track, [part.contact for part in self.parts or [self]], "messenger_at")
         messenger = self._part(track).messenger
         if messenger is None:
             raise ModelError("overhead.messenger", "the line has no messenger")
@@ -165,6 +170,8 @@ class Assembled:
 
     def _dropper_index(self, span: int, number: int) -> int:
         line = self.form.line
+        for key, value in (("span", span), ("number", number)):
+            checks.integer(value, f"overhead.dropper.{key}", -FAR, FAR)
         found = np.flatnonzero((line.dropper_span == span - 1) & (line.dropper_number == number - 1))
         if not found.size:
             size = f"{len(line.spans)} spans"
@@ -175,6 +182,10 @@ class Assembled:
 
     def add_mass(self, name: str, point: Point, mass: float) -> PointMass:
         """A mass in kg that moves with a point of a wire: a clamp, a section insulator."""
+        given: object = point
+        if not isinstance(given, Point):
+            what = f"must be a point of a wire, is {checks.shown(given)}"
+            raise ModelError(f"{name}.point", what, "overhead.contact_at(270.0)")
         body = self.model.add_point_mass(
             name, at=point.initial_position, mass=checks.positive(mass, f"{name}.mass")
         )

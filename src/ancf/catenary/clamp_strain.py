@@ -14,8 +14,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..arrays import FloatArray
+from ..errors import ModelError
+from ..model import checks
 from .cycles import Cycles, rainflow
-from .passing import dropper_places
+from .passing import check_run, dropper_places
 from .signals import Butterworth, sample_rate
 
 if TYPE_CHECKING:
@@ -121,9 +123,14 @@ def clamp_strains(run: Run, over: tuple[float, float] | None = None) -> list[Cla
     accelerates the clamp, whose inertia is left out, as is that of the wire. From the wave speed on the
     closed form has no strain below a strip, and nothing is returned.
     """
+    check_run(run, "clamp_strains")
+    low, high = run.window if over is None else checks.array(over, "clamp_strains.over", (2,)).tolist()
+    if not low <= high:
+        raise ModelError(
+            "clamp_strains.over", f"begins at {low:g} m and ends at {high:g} m", "the smaller first"
+        )
     if not strained(run):
         return []
-    low, high = run.window if over is None else over
     rate, butterworth, found, first, before = sample_rate(run.t), Butterworth(), [], 0, 0
     wires = hanging(run)
     for part in run.form.line.parts:

@@ -37,7 +37,7 @@ class Cycles:
 
     def number(self, least: float = 0.0) -> float:
         """How many have at least this range."""
-        return float(np.sum(self.count[self.range >= least]))
+        return float(np.sum(self.count[self.range >= checks.number(least, "cycles.least")]))
 
 
 @dataclass(frozen=True)
@@ -64,6 +64,10 @@ class FatigueLine:
 
     def damage(self, found: Cycles) -> float:
         """Share of the life that cycles take (Palmgren and Miner): sum of count over cycles to failure."""
+        if not isinstance(found, Cycles):
+            raise ModelError(
+                "fatigue.damage", f"must be Cycles, is {checks.shown(found)}", "rainflow(history)"
+            )
         return float(np.sum(found.count * (found.range / self.range) ** self.slope) / self.cycles)
 
 
@@ -90,7 +94,10 @@ def rainflow(history: npt.ArrayLike) -> Cycles:
         The history is empty, or holds a value that is not finite.
 
     """
-    values = np.asarray(history, dtype=np.float64)
+    try:
+        values = np.asarray(history, dtype=np.float64)
+    except (TypeError, ValueError):
+        values = np.zeros(0)
     if values.ndim != 1 or not values.size or not np.all(np.isfinite(values)):
         raise ModelError("rainflow.history", "must be a list of finite numbers")
     stack: list[float] = []

@@ -109,7 +109,10 @@ def elasticity(
         A force or an index is out of range, the line has no form, or `beside` or `mesh` are given beside one.
 
     """
-    force = checks.array(list(forces), "elasticity.forces", (None,))
+    given: Any = list(forces) if isinstance(forces, Sequence) else forces
+    force = checks.array(given, "elasticity.forces", (None,))
+    if not force.size:
+        raise ModelError("elasticity.forces", "is empty")
     for k, value in enumerate(force):
         checks.positive(value, f"elasticity.forces[{k}]")
     checks.integer(points, "elasticity.points", 2, 10_000)

@@ -39,12 +39,28 @@ def dynamic_stiffness(unit: Pantograph, frequency: npt.ArrayLike) -> npt.NDArray
     unit : Pantograph
     frequency : (n,) float
         Hz.
+
+    Raises
+    ------
+    ModelError
+        A frequency is no finite number >= 0, or it is no pantograph.
+
     """
+    given: object = unit
+    if not isinstance(given, Pantograph):
+        what = f"must be a Pantograph, is {checks.shown(given)}"
+        raise ModelError("dynamic_stiffness.unit", what, "find_pantograph(name)")
+    hertz = np.array(
+        [
+            checks.non_negative(f, f"dynamic_stiffness.frequency[{k}]")
+            for k, f in enumerate(np.atleast_1d(frequency).tolist())
+        ]
+    )
     return _chain(
         np.array(unit.masses),
         np.array(unit.slopes()),
         np.array([stage.damping_at_rest for stage in unit.stages]),
-        2.0 * np.pi * np.asarray(frequency, dtype=np.float64),
+        2.0 * np.pi * hertz,
     )
 
 

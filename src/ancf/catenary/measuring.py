@@ -10,7 +10,7 @@ import numpy as np
 from ..arrays import FloatArray
 from ..errors import ModelError
 from ..model import checks
-from .passing import in_window
+from .passing import check_run, in_window
 from .signals import CUT_OFF, Butterworth, sample_rate
 
 if TYPE_CHECKING:
@@ -153,6 +153,11 @@ def measure(
         half of the run's rate.
 
     """
+    pantograph = check_run(run, "measure", pantograph)
+    given: object = head
+    if given is not None and not isinstance(given, MeasuringHead):
+        what = f"must be a MeasuringHead, is {checks.shown(head)}"
+        raise ModelError("measure.head", what, "ancf.catenary.MeasuringHead(force_noise=2.0)")
     sensors, chosen = head or MeasuringHead(), filter or Butterworth()
     recording, unit, rate = run.recordings[pantograph], run.pantographs[pantograph], sample_rate(run.t)
     mass = unit.masses[-1] if sensors.mass is None else sensors.mass

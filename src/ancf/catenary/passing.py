@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 
 from ..arrays import FloatArray
 from ..errors import ModelError
+from ..model import checks
 from .signals import Intervals, at_zero, sample_rate
 
 if TYPE_CHECKING:
@@ -71,6 +72,15 @@ class DropperForces:
     def label(self) -> str:
         """Span and number, "8-3"."""
         return f"{self.span}-{self.number}"
+
+
+def check_run(run: Any, where: str, pantograph: object = 0) -> int:
+    """Raise ModelError if it is no run, or has no such pantograph; its place in ``run.recordings``."""
+    if not hasattr(run, "recordings"):
+        raise ModelError(
+            f"{where}.run", f"must be a Run, is {checks.shown(run)}", "ancf.catenary.run makes one"
+        )
+    return checks.integer(pantograph, f"{where}.pantograph", 0, len(run.recordings) - 1)
 
 
 def in_window(run: Run, pantograph: int = 0) -> slice:

@@ -61,6 +61,7 @@ def form(line: Line | Route | str | Path, mesh: Mesh | None = None) -> AnyForm:
 
     """
     line = track_of(line)
+    _check_mesh(mesh)
     with garbage.later():
         return _of_route(line, mesh) if isinstance(line, Route) else _of_line(line, mesh)
 
@@ -74,6 +75,12 @@ def track_of(line: Line | Route | str | Path) -> Line | Route:
         what = f"must be a Line, a Route, a name or a path, is {shown(given)}"
         raise ModelError("catenary.line", what, "catenary.read_line reads one")
     return given
+
+
+def _check_mesh(mesh: object) -> None:
+    if mesh is not None and not isinstance(mesh, Mesh):
+        what = f"must be a Mesh, is {shown(mesh)}"
+        raise ModelError("catenary.mesh", what, "ancf.catenary.Mesh(contact=0.8, messenger=2.0)")
 
 
 def _of_line(line: Line, mesh: Mesh | None, section: int = 0) -> Form:
@@ -146,6 +153,10 @@ def _caution_in_section(text: str, k: int) -> str:
 
 def assemble(found: AnyForm, mesh: Mesh | None = None) -> Assembled:
     """Make the model of a line, see :func:`ancf.catenary.assemble`."""
+    _check_mesh(mesh)
+    given: object = found
+    if not isinstance(given, Form | RouteForm):
+        raise ModelError("assemble.form", f"must be a Form, is {shown(given)}", "ancf.catenary.form finds it")
     if mesh is not None and mesh != found.mesh:
         found = form(found.line, mesh)
     return assembled_route(found) if isinstance(found, RouteForm) else assembled(found)

@@ -13,6 +13,7 @@ import numpy as np
 import ancf
 
 from ..control.delay import Delayed
+from ..errors import ModelError
 from ..model import checks
 from . import cautions, sleeping
 from .assemble import Assembled
@@ -169,7 +170,11 @@ def run(
     plan = relaxed(plan, sleeps)
     if sensitivities:
         check_run(plan, sensitivities, controller)
-    if controller is not None and checks.non_negative(control_delay, "run.control_delay"):
+    if controller is None:
+        for key, value in (("control_step", control_step), ("control_delay", control_delay or None)):
+            if value is not None:
+                raise ModelError(f"run.{key}", "has no effect without controller", "leave it out")
+    elif checks.non_negative(control_delay, "run.control_delay"):
         controller = Delayed(controller, control_delay)
     led: dict[str, Any] = (
         {} if controller is None else {"controller": controller, "control_step": control_step}

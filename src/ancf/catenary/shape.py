@@ -10,6 +10,8 @@ import numpy as np
 import ancf
 
 from ..arrays import FloatArray, IntArray
+from ..errors import ModelError
+from ..model import checks
 from ..model.beam import Beam
 from ..model.points import Point
 from .mesh import Nodes
@@ -17,6 +19,8 @@ from .wire import Rayleigh, Wire
 
 #: Gauss points of the axial and bending integrals: exact for the quadratic energy of a wire under tension.
 GAUSS = (3, 2)
+#: By which the end of a wire may have gone along the track in the heat, m.
+TRAVEL = 2.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -141,3 +145,14 @@ def started(
     force = wire.tension * chord / np.diff(nodes.x)
     arc = np.concatenate([[0.0], np.cumsum(chord / (1.0 + force / wire.EA))])
     return WireShape(wire, nodes, arc, position, hinges)
+
+
+def on_track(track: object, wires: list[Strung], where: str) -> float:
+    """A track position, m; ModelError where no wire is. Heat moves ends along the track."""
+    x = checks.number(track, f"overhead.{where}.track")
+    places = [wire.shape.position[[0, -1], 0] for wire in wires]
+    low, high = float(np.min(places)), float(np.max(places))
+    if not low - TRAVEL <= x <= high + TRAVEL:
+        what = f"is {x:g} m, the line reaches from {round(low, 3):g} to {round(high, 3):g} m"
+        raise ModelError(f"overhead.{where}.track", what)
+    return x

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..arrays import FloatArray
-from ..errors import UnknownNameError
+from ..errors import ModelError, UnknownNameError
 from ..model import checks
 from . import passing
 from .quantity import Quantity
@@ -97,9 +97,14 @@ def statistics(run: Run, pantograph: int = 0, filter: Butterworth | None = None)
     Raises
     ------
     ModelError
-        The run does not cover the window, or its steps are not even.
+        The run does not cover the window, its steps are not even, or it has no such pantograph.
 
     """
+    pantograph = passing.check_run(run, "statistics", pantograph)
+    given: object = filter
+    if given is not None and not isinstance(given, Butterworth):
+        what = f"must be a Butterworth, is {checks.shown(filter)}"
+        raise ModelError("statistics.filter", what, "ancf.catenary.Butterworth(order=4)")
     chosen = Butterworth() if filter is None else filter
     recording, rate = run.recordings[pantograph], sample_rate(run.t)
     window = passing.in_window(run, pantograph)

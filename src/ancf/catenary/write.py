@@ -15,7 +15,7 @@ from ..files import cell, to_json, write_text
 from .acceptance import acceptance
 from .clamp_strain import bends, clamp_strains
 from .cycles import rainflow
-from .passing import DropperForces, broken_places, dropper_forces, dropper_places
+from .passing import DropperForces, broken_places, check_run, dropper_forces, dropper_places
 from .state import state, tensions
 from .statistics import Statistics, statistics
 
@@ -51,6 +51,7 @@ def write_run(run: Run, folder: str | Path, found: Sequence[Statistics] | None =
         A file cannot be written.
 
     """
+    check_run(run, "write_run")
     chosen = [statistics(run, k) for k in range(len(run.recordings))] if found is None else found
     folder = Path(folder)
     files = [write_statistics(chosen, folder / "statistics.csv")]

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..._version import __version__
+from ...errors import ModelError
 from ...files import write_text, writing
 from ...viz import printed, style
 from ...viz.html import element, figure, page, section
@@ -60,7 +61,11 @@ def write_report(
 
     """
     kind = Path(path).suffix.removeprefix(".")
-    formats = printed.chosen([kind], str(path)) if kind in printed.FORMATS else (printed.HTML,)
+    paper = kind in printed.FORMATS
+    if not paper and kind not in (printed.HTML, "htm", ""):
+        formats_there = ", ".join((printed.HTML, *printed.FORMATS))
+        raise ModelError(str(path), f"ends with .{kind}", f"reports are {formats_there}")
+    formats = printed.chosen([kind], str(path)) if paper else (printed.HTML,)
     return _write(Content.of(run, reference, elasticity, measured), [(formats[0], Path(path))])[0]
 
 
