@@ -1,6 +1,7 @@
 """Twin contact wires, two side by side: against strings by hand, one wire for both, and one of two alone."""
 
 from dataclasses import replace
+from typing import ClassVar
 
 import numpy as np
 import pytest
@@ -227,3 +228,38 @@ class TestFile:
                 steady_arm=SteadyArm(vertical=1e9),
                 contact_spacing=0.04,
             )
+
+
+class TestUplift:
+    """Of both wires the higher one counts, whichever it is."""
+
+    GIVEN: ClassVar = {"speed": 45.0, "pantograph": collector(), "step": STEP, "start": 8.0}
+    WAY: ClassVar = {"window": (60.0, 76.0), "until": 90.0}
+
+    @pytest.mark.parametrize("reduce", [False, True])
+    @pytest.mark.parametrize("place", [5, 4])
+    @pytest.mark.parametrize("span", [2, 3])
+    def test_of_the_wire_that_lacks_a_dropper(self, span, place, reduce):
+        """The same on the left as on the right: beside the support one wire rises by far more."""
+        found = form(twin(stagger=0.0), COARSE)
+        lift = []
+        for side in (0, 1):
+            label = f"{span}-{2 * (place - 1) + 1 + side}"
+            made = run(found, **self.GIVEN, **self.WAY, reduce=reduce, broken_droppers=[label])
+            lift.append(made.uplift[:, span].max())
+        whole = run(found, **self.GIVEN, **self.WAY, reduce=reduce).uplift[:, span].max()
+        assert lift[1] == pytest.approx(lift[0], rel=2e-2 if reduce else 2e-3)
+        if place == 5:
+            assert min(lift) > 1.15 * whole
+
+    @pytest.mark.parametrize("mass", [4.0, 12.0])
+    def test_at_rest_of_a_changed_model_both_are_zero(self, mass):
+        """Uplift is measured from where each wire rests with what hangs on it."""
+        found = form(twin(), COARSE)
+
+        def hang(overhead):
+            overhead.add_mass("box", overhead.twin.point(found.twin.nodes.support[4]), mass)
+
+        done = run(found, **self.GIVEN, **self.WAY, modify=hang)
+        assert abs(done.uplift[0, 4]) < 2e-4
+        assert done.uplift[:, 2].max() > 5e-3

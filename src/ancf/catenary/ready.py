@@ -29,12 +29,9 @@ TOLERANCE, LOOSEST, WITH_SLEEP = 1e-8, 1e-7, 10.0
 
 @dataclass(frozen=True)
 class Rest:
-    """A line without pantographs: heights of its supports in m, forces of its droppers and of their lower
-    ends in N.
-    """
+    """A line without pantographs: heights of its supports in m, forces of its droppers in N."""
 
     height: FloatArray
-    force: FloatArray
     load: FloatArray
 
 
@@ -147,14 +144,15 @@ def _rest(plan: Plan) -> Rest:
     """The line at rest: as its form says, or of a changed model from its equilibrium."""
     found = plan.form
     if not plan.door.changed:
-        return Rest(found.support_height, found.dropper_force, found.dropper_load)
+        return Rest(found.support_height, found.dropper_load)
     overhead = plan.door.overhead(found)
     state = ancf.equilibrium(overhead.model)
-    whole = np.array([d is not None for d in overhead.droppers], dtype=bool)
-    force = np.array([0.0 if d is None else float(state.spring_force(d)) for d in overhead.droppers])
     half = found.dropper_force - found.dropper_load
+    force = [
+        0.0 if d is None else float(state.spring_force(d)) - half[j] for j, d in enumerate(overhead.droppers)
+    ]
     height = [float(state.position(point)[2]) for point in overhead.supports]
-    return Rest(np.array(height), force, np.where(whole, force - half, 0.0))
+    return Rest(np.array(height), np.array(force))
 
 
 def _alone(overhead: Assembled, sensitivities: Mapping[str, Sequence[str]]) -> ancf.State | None:

@@ -14,7 +14,9 @@ from .assemble import Assembled
 from .broken import broken_of
 from .collectors import Collector
 from .ready import Ready
+from .route_form import AnyForm
 from .run_data import Recording, Run
+from .twin import second_supports
 
 
 def _dropper_forces(sensors: Any, overhead: Assembled) -> FloatArray:
@@ -26,6 +28,28 @@ def _dropper_forces(sensors: Any, overhead: Assembled) -> FloatArray:
     return forces
 
 
+def _resting(overhead: Assembled, load: FloatArray) -> AnyForm:
+    """The form with loads (n,) of the droppers at their lower ends, N, as a changed model rests."""
+    found, whole = overhead.form, np.array([d is not None for d in overhead.droppers], dtype=bool)
+    half = found.dropper_force - found.dropper_load
+    return found.with_forces(np.where(whole, load + half, 0.0), load)
+
+
+def _lift_second(uplift: FloatArray, sensors: Any, ready: Ready) -> None:
+    """At supports of twin contact wires the uplift (steps, supports) is that of the higher one, m."""
+    points = second_supports(ready.overhead)
+    if not points:
+        return
+    plan = ready.plan
+    places = {k: float(point.initial_position[2]) for k, point in points.items()}
+    if plan.door.changed:
+        alone = plan.door.overhead(plan.form)
+        state = ancf.equilibrium(alone.model)
+        places = {k: float(state.position(p)[2]) for k, p in second_supports(alone).items()}
+    for k, point in points.items():
+        np.maximum(uplift[:, k], sensors.position(point)[:, 2] - places[k], out=uplift[:, k])
+
+
 @garbage.without
 def recorded(result: ancf.Result, ready: Ready, said: dict[str, Any]) -> Run:
     """What a run has recorded; ``said`` joins its settings."""
@@ -33,11 +57,13 @@ def recorded(result: ancf.Result, ready: Ready, said: dict[str, Any]) -> Run:
     sensors, line, collectors = result.sensors, overhead.form.line, ready.collectors
     t: FloatArray = sensors.t
     uplift = np.stack([sensors.position(p)[:, 2] for p in overhead.supports], axis=1) - rest.height
+    if not ready.wanted:
+        _lift_second(uplift, sensors, ready)
     simulated = float(t[-1] - t[0])
     broken = broken_of(overhead)
     cpu = plan.spent + result.stats.cpu_seconds
     return Run(
-        form=overhead.form.with_forces(rest.force, rest.load) if plan.door.changed else overhead.form,
+        form=_resting(overhead, rest.load) if plan.door.changed else overhead.form,
         pantographs=[c.pantograph for c in collectors],
         speed=(float(plan.travel.distance(t[-1])) / simulated),
         t=t,

@@ -31,6 +31,7 @@ from .route_form import AnyForm
 from .run_data import Run
 from .touching import Watched
 from .travel import make_travel
+from .twin import second_supports
 
 #: Mesh and step of the trial run that finds a mean height.
 TRIAL, TRIAL_STEP = Mesh(contact=2.0, messenger=3.0), 2e-3
@@ -226,12 +227,14 @@ def _simulated(
     begun = ready(plan, active=bool(led), sleeps=sleeps, sensitivities=sensitivities)
     if callable(led.get("controller")):
         led["controller"] = Watched(led["controller"], begun.collectors)
+    settings = begun.settings(integrator)
+    settings["sensors"] = [*settings["sensors"], *second_supports(begun.overhead).values()]
     given: dict[str, Any] = {
         "t_end": plan.duration,
         "output_step": plan.duration if output_step is None else output_step,
         "file": file,
         "progress": progress,
-        **begun.settings(integrator),
+        **settings,
         **led,
     }
     model, spans = begun.overhead.model, None

@@ -109,7 +109,8 @@ class Run(Told):
     recordings : list of Recording
         One for each pantograph.
     uplift : (n, n_supports) float
-        Height of the contact wire at each support above its place at rest, m.
+        Height of the contact wire at each support above its place at rest, m; of twin wires
+        that of the higher one.
     dropper_force : (n, n_droppers) float
         Tension of each dropper, N.
     window : (float, float)

@@ -15,6 +15,7 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..errors import SolveError
+from ..model.points import Point
 from .fittings import NO_DROPPERS, Droppers, SteadyArm
 from .form import Form, design, unstretched
 from .line import Line
@@ -139,3 +140,15 @@ def _pulls(line: Line, one: FloatArray) -> FloatArray:
     pull[: len(one)] = one
     pull[[0, 3]] = line.contact_wire.tension
     return pull
+
+
+def second_supports(overhead: Any) -> dict[int, Point]:
+    """By the index of a support of an Overhead the second of twin contact wires there, if there are two."""
+    found: dict[int, Point] = {}
+    first = 0
+    for part in overhead.parts or [overhead]:
+        nodes = part.contact.shape.nodes.support.tolist()
+        if part.twin is not None:
+            found |= {first + i: part.twin.point(node) for i, node in enumerate(nodes)}
+        first += len(nodes)
+    return found
