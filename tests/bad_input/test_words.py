@@ -173,6 +173,19 @@ def test_a_point_without_a_support(swung, point, said):
         swung.sensors.reaction(point)
 
 
+@pytest.mark.parametrize("recorded", ["left", "right"])
+def test_a_point_of_several_supports_of_which_one_was_recorded(recorded):
+    """The point stands for the one that can be asked."""
+    model = ancf.Model(gravity=(0, 0, -9.81))
+    mass = model.add_point_mass("mass", at=(0, 0, 0), mass=2.0)
+    for name, held in (("left", "xy"), ("right", "z")):
+        model.hold(mass, position=held, name=name)
+    result = ancf.simulate(model, t_end=0.02, step=0.01, sensors=[recorded])
+    np.testing.assert_array_equal(result.sensors.reaction("mass"), result.sensors.reaction(recorded))
+    with pytest.raises(ancf.ModelError, match="is held by several supports"):
+        result.reaction("mass")
+
+
 @pytest.mark.parametrize("question", ["position", "tension", "curvature"])
 def test_a_support_that_is_asked_as_a_point(swung, question):
     with pytest.raises(ancf.ModelError, match=r"support of that name holds rope\.start: ask that"):

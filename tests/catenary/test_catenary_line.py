@@ -18,6 +18,7 @@ from ancf.catenary import (
     line_names,
     read_line,
 )
+from ancf.catenary.line_parts import MAY_LACK, PARTS
 from ancf.catenary.mesh import divided
 from ancf.errors import ModelError
 from places import DATA, EXAMPLES
@@ -153,6 +154,31 @@ class TestCatalogue:
 
 def spans_with(**changes):
     return Span(**({"length": 50.0, "droppers": (10.0, 25.0, 40.0)} | changes))
+
+
+class TestParts:
+    @pytest.mark.parametrize("key", [key for key in PARTS if key not in MAY_LACK])
+    def test_that_no_line_may_lack(self, key):
+        with pytest.raises(ModelError) as caught:
+            line(**{key: None})
+        assert caught.value.where == f"line.{key}"
+        assert f"must be a {PARTS[key].__name__}, is None" in caught.value.what
+
+    @pytest.mark.parametrize("key", PARTS)
+    def test_of_another_kind(self, key):
+        with pytest.raises(ModelError) as caught:
+            line(**{key: WIRE if PARTS[key] is not Wire else Droppers(EA=1e5)})
+        assert caught.value.where == f"line.{key}"
+
+    @pytest.mark.parametrize("count", [2, 3])
+    def test_spans_may_come_in_any_form(self, count):
+        """What can be gone through is as good as a tuple, and may be used up by it."""
+        spans = [spans_with() for _ in range(count)]
+        wanted = line(spans=tuple(spans), stagger=0.2)
+        for given in (spans, iter(spans), (one for one in spans)):
+            found = line(spans=given, stagger=0.2)
+            assert found.spans == wanted.spans
+            assert hash(found.spans) == hash(wanted.spans)
 
 
 class TestWrongInPython:

@@ -12,8 +12,10 @@ import pytest
 import ancf
 from ancf import ModelError, catenary
 from ancf.catenary import Butterworth, Mesh, Span, form, read_line, reference_run, rows, run, statistics
+from ancf.catenary.passing import in_window
 from ancf.catenary.references import reference_case
 from ancf.catenary.statistics import mean_force_target
+from ancf.catenary.travel import make_travel
 from overhead_lines import COARSE, LENGTHS, STAGGER, STEP, collector, droppers, short_line
 from places import DATA
 
@@ -246,6 +248,27 @@ class TestTravel:
         expected = 10.0 + np.select([t <= 1.0, t <= 2.0], parts[:2], parts[2])
         assert done.recordings[0].position == pytest.approx(expected, abs=1e-9)
         assert done.speed == pytest.approx((expected[-1] - 10.0) / t[-1])
+
+    @pytest.mark.parametrize(
+        "profile", [30.0, ((0.0, 20.0), (2.0, 60.0)), ((0.0, 50.0), (1.0, 10.0), (1.5, 40.0))]
+    )
+    def test_time_is_when_the_way_is_gone(self, profile):
+        travel = make_travel(profile)
+        for t in (0.0, 0.3, 1.0, 1.2, 1.9, 2.0, 7.5):
+            assert travel.time(float(travel.distance(t))) == pytest.approx(t, abs=1e-12)
+            way = np.trapezoid(travel.speed(np.linspace(0.0, t, 30_001)), dx=t / 30_000)
+            assert travel.distance(t) == pytest.approx(way, rel=1e-4, abs=1e-12)
+
+    @pytest.mark.parametrize("speeds", [(20.0, 60.0), (70.0, 25.0)])
+    def test_the_law_is_that_of_each_moment(self, speeds):
+        """Its mean over the window; at the mean speed it asks for less."""
+        profile = ((0.0, speeds[0]), (3.0, speeds[1]))
+        done = quick(speed=profile, window=(70.0, 140.0), until=142.0)
+        found = statistics(done)
+        speed = make_travel(profile).speed(done.t)[in_window(done, 0)]
+        asked = [mean_force_target(3.6 * v) for v in speed]
+        assert found["mean_force_law_ac"].value == pytest.approx(np.mean(asked), rel=1e-4)
+        assert np.mean(asked) > mean_force_target(found["speed"].value) * (1.0 + 1e-3)
 
     def test_constant_profile_is_the_speed(self):
         constant, single = quick(speed=((0.0, 40.0), (1.0, 40.0))), quick()

@@ -74,6 +74,18 @@ def test_they_carry_what_hangs_from_the_auxiliary(pitch):
     assert weight < carried < weight + outside
 
 
+@pytest.mark.parametrize("mass", [0.0, 1.5])
+def test_their_own_weight_is_no_load(mass):
+    """What they carry is the same however heavy they are: the auxiliary hangs as it is designed to."""
+    rule = DropperRule(first=5.0, pitch_max=10.0)
+    loads = []
+    for own in (LONG.mass, mass):
+        given = Auxiliary(wire=WIRE, height=0.3, droppers=replace(LONG, mass=own), places=rule)
+        rows = long_rows(catenary.form(short_line(auxiliary=given), COARSE))
+        loads.append([row.load for row in rows])
+    assert loads[1] == pytest.approx(loads[0], rel=1e-3)
+
+
 def test_a_route_counts_on():
     line, found = formed(PITCHES[0])
     route = catenary.Route(lines=(line, line), starts=(0.0, 140.0))

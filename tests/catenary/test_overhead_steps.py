@@ -153,7 +153,9 @@ def test_a_controller_asks_for_pantographs(delay):
         j = int(np.argmin(np.abs(made.t - t)))
         for k, one in enumerate(both):
             assert one.force == pytest.approx(made.recordings[k].force[j], abs=1e-9)
-            assert one.position == pytest.approx(made.recordings[k].position[j], abs=1e-9)
+            for name in ("position", "height", "stagger", "strip"):
+                recorded = getattr(made.recordings[k], name)[j]
+                assert getattr(one, name) == pytest.approx(recorded, abs=1e-9)
     with pytest.raises(ancf.ModelError, match=r"pantograph\.number"):
         catenary.run(
             short_line(), speed=40.0, pantograph=collector(), step=STEP, mesh=COARSE, window=(66.0, 70.0),

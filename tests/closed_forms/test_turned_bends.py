@@ -1,9 +1,13 @@
 """A ring that is pulled apart: in its plane it follows the closed form, a cable's bend that turns is told."""
 
+from typing import NamedTuple
+
 import numpy as np
 import pytest
 
 import ancf
+from ancf.elements.slopes import vectors_of
+from ancf.results.turned_bends import _bends as bends_of
 
 R, EA, EI = 0.5, 1e6, 100.0
 #: Growth of the pulled diameter, and decrease of the other one, over P R^3/EI of a thin ring.
@@ -94,3 +98,46 @@ def test_in_motion(held, kick):
     model.add_force(arc.end, (-20.0, 0.0 if held else kick, 0.0))
     notes = ancf.simulate(model, t_end=0.1, step=2e-4).notes
     assert bool([note for note in notes if SAID in note]) == (kick > 0.0 and not held)
+
+
+def hermite_line(points, tangents, places):
+    """A cable's tangents between nodes (n, 3) with slopes (n, 3) at these places."""
+    slots = 3 * np.arange(2 * len(places)).reshape(-1, 2)
+    return vectors_of(places, slots, np.hstack([points, tangents]).reshape(1, -1))
+
+
+class Straight(NamedTuple):
+    """What the angles of a curve are counted along."""
+
+    node_x: np.ndarray
+
+
+@pytest.mark.parametrize("stretch", [0.8, 1.0, 1.3])
+@pytest.mark.parametrize(("radius", "pitch"), [(0.5, 0.0), (2.0, 0.7), (0.1, -0.03)])
+def test_bends_of_helices(stretch, radius, pitch):
+    """Of curvature k and torsion t over the way s: k times the stretch, turned by t s about the cable."""
+    count, turns = 120, 1.5
+    size = np.hypot(radius, pitch)
+    angle = 2 * np.pi * turns * np.linspace(0.0, 1.0, count + 1)
+    points = np.stack([radius * np.cos(angle), radius * np.sin(angle), pitch * angle], axis=1)
+    tangents = np.stack([-radius * np.sin(angle), radius * np.cos(angle), pitch + 0 * angle], axis=1) / size
+    natural = size * angle / stretch
+    bend, turned = bends_of(Straight(natural), hermite_line(points, stretch * tangents, natural))
+    assert bend == pytest.approx(np.full(3 * count, radius / size**2 * stretch), rel=2e-3)
+    way = np.repeat(size * angle[:-1], 3) + np.tile([0.0, 0.5, 1.0], count) * size * angle[1]
+    told = np.unwrap(turned) - turned[0]
+    assert told == pytest.approx(pitch / size**2 * way, abs=2e-2)
+
+
+@pytest.mark.parametrize("size", [0.02, 1.0, 30.0])
+@pytest.mark.parametrize(("pull", "count"), [(0.5, 1), (200.0, 0)])
+def test_whatever_the_size(size, pull, count):
+    """Lengths count in radii and forces in EI/R^2: a note in one size is a note in all."""
+    angle = np.linspace(0.0, np.pi / 2, 41)
+    model = ancf.Model()
+    section = ancf.Section(EA=1e6 * EI / size**2, EI=EI, rhoA=1.0)
+    path = size * np.stack([np.cos(angle), 0 * angle, np.sin(angle)], axis=1)
+    arc = model.add_beam("arc", path=path, elements=8, section=section)
+    model.clamp(arc.start)
+    model.add_force(arc.end, (0.0, pull * EI / size**2, 0.0))
+    assert len([n for n in ancf.equilibrium(model, load_steps=20).notes if SAID in n]) == count

@@ -4,12 +4,14 @@ import numpy as np
 import pytest
 
 import ancf
+from ancf.results.turned_round import notes
+from ancf.system.system import System
 
 HEIGHT, EA = 0.02, 40.0
 KINDS = ["material", "paper", "original", "nonlocking"]
 
 
-def pressed(kind, share, elements, length, across=0.0):
+def pressed(kind, share, elements, length, across=0.0, at=0.0):
     """A cantilever that is pressed by a share of EA; its Euler load is (pi h/L)^2/48 of EA."""
     model = ancf.Model()
     if kind in ("material", "paper"):
@@ -18,7 +20,7 @@ def pressed(kind, share, elements, length, across=0.0):
         size = {"width": HEIGHT, "height": HEIGHT, "rho": 900.0, "nu": 0.0}
         section, more = ancf.Section.rectangle(E=EA / HEIGHT**2, **size), {"element": kind}
     beam = model.add_beam(
-        "rod", start=(0, 0, 0), end=(length, 0, 0), elements=elements, section=section, **more
+        "rod", start=(at, 0, 0), end=(at + length, 0, 0), elements=elements, section=section, **more
     )
     model.clamp(beam.start)
     model.add_force(beam.end, (-share * EA, 0.0, across * EA))
@@ -80,3 +82,34 @@ class TestBent:
         state = ancf.equilibrium(model)
         assert slope(state, beam) == pytest.approx(np.cos(turned), abs=1e-9)
         assert said(state) == []
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("way", [-0.4, -0.9])
+def test_clamps_that_travel_may_be_anywhere(kind, way):
+    """On the other side of the origin as well: what counts is where the slope points."""
+    model, beam = pressed(kind, 0.0, 3, 1.0, at=0.2)
+    model.supports.clear()
+    model.clamp(beam.start, displacement=[f"{way}*ramp(t, 0, 1)", 0, 0])
+    state = ancf.simulate(model, t_end=1.0, step=0.01).state()
+    assert state.position(beam.start)[0] == pytest.approx(0.2 + way)
+    assert slope(state, beam) > 0.0
+    assert said(state) == []
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("size", [0.05, 0.9, 1.3])
+def test_one_slope_that_points_backwards_is_enough(kind, size):
+    """Whatever the others do: that of a state whose other slopes are as at the start."""
+    model, _ = pressed(kind, 0.0, 3, 1.0)
+    system = System(model)
+    start, _ = system.initial_state()
+    slots = system.slots["rod"]
+    assert notes(system, start) == []
+    for node, count in ((0, 1), (1, 0), (3, 0)):
+        for slope_slot in slots[node, 1 : 2 if slots.shape[1] == 2 else 4]:
+            q = start.copy()
+            q[slope_slot : slope_slot + 3] *= -size
+            assert len(notes(system, q)) == count
+            q[slope_slot : slope_slot + 3] *= -1.0
+            assert notes(system, q) == []

@@ -96,3 +96,29 @@ def test_another_folder_takes_what_is_named_as_an_input(call):
     for _ in range(2):
         assert call("run", "given.toml", "-o", "out").code == 0
     assert Path("out/sensors.csv").is_file()
+
+
+STUDIED = """
+model = "model.toml"
+[[parameters]]
+path = "bodies.cable.section.EI"
+values = [1.0, 2.0]
+[sampling]
+method = "grid"
+[[outputs]]
+name = "tip"
+formula = "last(position(cable.end)[2])"
+"""
+
+
+@pytest.mark.parametrize("name", ["table.csv", "table.parquet.csv", "pull.csv"])
+def test_a_table_of_the_model_of_a_study_stays(call, name):
+    """What the model reads is read by the command, though the study looks at it for itself."""
+    Path("model.toml").write_text(PULLED.format(name=name), encoding="utf-8")
+    Path("study.toml").write_text(STUDIED, encoding="utf-8")
+    table = "t,pull\n0,0\n1,2\n"
+    Path(name).write_text(table, encoding="utf-8")
+    ran = call("study", "study.toml", "-o", ".")
+    assert ran.code == (2 if name == "table.csv" else 0), ran.said
+    assert (f"{name}: is the file that is read" in ran.said) == (name == "table.csv")
+    assert Path(name).read_text(encoding="utf-8") == table

@@ -151,6 +151,35 @@ def test_title_is_the_name(tmp_path, title, version):
     assert found.coSimulation.modelIdentifier == "Crane_2"
 
 
+@pytest.mark.parametrize("version", ["2.0", "3.0"])
+@pytest.mark.parametrize("every", [0, 1, 5, 20])
+def test_a_master_is_told_the_steps_at_which_states_are_stored(tmp_path, every, version):
+    """Those of the method where the file gives no others."""
+    wanted = f"step = 1e-3\noutput_step = {1e-3 * every!r}" if every else "step = 1e-3"
+    (tmp_path / "model.toml").write_text(MODEL.replace("step = 1e-3", wanted), encoding="utf-8")
+    export_fmu(tmp_path / "model.toml", tmp_path / "unit.fmu", version)
+    found = fmpy.read_model_description(str(tmp_path / "unit.fmu"))
+    assert float(found.defaultExperiment.stepSize) == pytest.approx(1e-3 * max(every, 1), rel=1e-12)
+
+
+#: Units of an input, with what one of them is in SI units.
+SIZES = {"kN": 1e3, "mm": 1e-3, "km/h": 1 / 3.6, "deg": math.pi / 180, "rpm": math.pi / 30, "bar": 1e5}
+
+
+@pytest.mark.parametrize("version", ["2.0", "3.0"])
+def test_units_of_inputs_have_their_sizes(tmp_path, version):
+    """A master multiplies by the factor to come to SI units."""
+    inputs = "".join(f'[[inputs]]\nname = "u{k}"\nunit = "{unit}"\n' for k, unit in enumerate(SIZES))
+    (tmp_path / "model.toml").write_text(
+        MODEL.replace("[[bodies]]", f"{inputs}[[bodies]]", 1), encoding="utf-8"
+    )
+    export_fmu(tmp_path / "model.toml", tmp_path / "unit.fmu", version)
+    found = fmpy.read_model_description(str(tmp_path / "unit.fmu"))
+    factors = {unit.name: float(unit.baseUnit.factor or 1.0) for unit in found.unitDefinitions}
+    assert {name: factors[name] for name in SIZES} == pytest.approx(SIZES, rel=1e-12)
+    assert factors["N"] == 1.0
+
+
 @pytest.mark.parametrize("question", SAID)
 def test_words_of_every_question(question):
     said = [Output("name", question, "thing", part, "m").said for part in range(2)]

@@ -10,6 +10,7 @@ import pytest
 import ancf
 from ancf.design.calibrate import STARTS
 from ancf.design.calibration_file import read_calibration
+from ancf.design.weights import apart, noise_of
 from example_scripts import script
 from places import EXAMPLES
 
@@ -300,6 +301,22 @@ class TestNoise:
         fit = ancf.calibrate(sway, data | {"z": few}, SWAY)
         assert "z" not in fit.estimated
         assert abs(fit.values["rate"] - 0.7) < 4 * fit.deviations["rate"]
+
+
+@pytest.mark.parametrize("unit", [0.3, 1.0, 5.0])
+@pytest.mark.parametrize("ratio", [0.1, 2.0, 7.0])
+def test_noise_beside_what_is_known(unit, ratio):
+    """What a column with a known deviation leaves is the unit, whatever its size."""
+    draw, count = np.random.default_rng(4), 5000
+    rows = {"known": slice(0, count), "other": slice(count, 2 * count)}
+    residuals = unit * draw.standard_normal(2 * count)
+    residuals[count:] *= ratio
+    jacobian = draw.standard_normal((2 * count, 3))
+    found = noise_of(rows, residuals, jacobian, frozenset(["known"]))
+    assert found == {"known": 1.0, "other": pytest.approx(ratio, rel=0.05)}
+    alone = noise_of(rows, residuals, jacobian, frozenset())
+    assert alone == pytest.approx({"known": unit, "other": ratio * unit}, rel=0.05)
+    assert apart(alone) == pytest.approx(max(ratio, 1 / ratio), rel=0.05)
 
 
 class TestValleys:

@@ -7,11 +7,13 @@ import sqlite3
 import sys
 import textwrap
 
+import numpy as np
 import pytest
 
 import ancf
 from ancf.design import study as studies
 from ancf.design.file import read_study_file
+from ancf.design.fingerprints import fingerprint
 from ancf.design.study import identity
 from commands import MODEL, SIMULATION
 from overhead_lines import TOML
@@ -201,6 +203,22 @@ class TestFiles:
         forget(tmp_path / "out")
         never()
         study()
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_what_a_file_says_has_no_order(tmp_path, seed):
+    """Keys and tables may change places, comments come and go; a number that changes is another file."""
+    lines = [f"k{k} = {k}.5" for k in range(6)]
+    tables = [f"[t{k}]\nz = {k}\na = [1, 2]\n" for k in range(4)]
+    before = tmp_path / "before.toml"
+    before.write_text("\n".join([*lines, *tables]), encoding="utf-8")
+    draw, now = np.random.default_rng(seed), tmp_path / "now.toml"
+    shuffled = [*draw.permutation(lines), "# moved", *draw.permutation(tables)]
+    now.write_text("\n".join(shuffled), encoding="utf-8-sig")
+    assert fingerprint(now) == fingerprint(before) != ""
+    for old, new in (("k3 = 3.5", "k3 = 3.25"), ("[1, 2]", "[2, 1]"), ("z = 2", "y = 2")):
+        now.write_text("\n".join(shuffled).replace(old, new), encoding="utf-8")
+        assert fingerprint(now) != fingerprint(before)
 
 
 def _about(folder):

@@ -10,10 +10,12 @@ from ancf.connections.contact import ContactBatch
 from ancf.elements.cable_slack import compression
 from ancf.elements.measures import axial_strain
 from ancf.elements.shapes import gauss, hermite
+from ancf.elements.slopes import mean_strain, slope, vectors_of
 from ancf.linalg.sparse import to_sparse
 from ancf.model.functions import TimeFunction
 from ancf.solvers import sampling
 from ancf.solvers.free_spin import Spin, is_neutral
+from ancf.solvers.pressed import least_stretch
 from ancf.system.contacts import touching
 from ancf.system.core import apply_load, assemble, restrict
 from ancf.system.energy import energies
@@ -351,6 +353,30 @@ class TestFields:
             line = np.polynomial.Polynomial.fit((x + 1) / 2, exact, 1, w=np.sqrt(w), domain=[0, 1])
             for xi in (0.05, 0.3, 0.9):
                 assert state.strain(beam.at(a + xi * h)) == pytest.approx(line(xi), rel=1e-10)
+
+    @pytest.mark.parametrize("seed", range(3))
+    def test_tangents_within_elements(self, seed):
+        """Those of the cubic polynomial, component by component, and strains that are means over it."""
+        system = System(cable("straight", elements=3)[0])
+        beam, q = system.model.bodies["beam"], shaken(system, seed=seed)
+        vectors = vectors_of(beam.node_x, system.slots["beam"], q[None])
+        x, w = np.polynomial.legendre.leggauss(5)
+        for e, h in enumerate(np.diff(beam.node_x)):
+            nodal = q[system.slots["beam"][e : e + 2].ravel()[:, None] + np.arange(3)]
+            for xi in (0.0, 0.2, 0.5, 1.0):
+                wanted = hermite(np.array([xi]), h, 1)[0] @ nodal
+                assert [slope(part, xi)[0, e] for part in vectors] == pytest.approx(wanted, rel=1e-10)
+            for strain in ("paper", "material"):
+                mean = 0.5 * w @ axial_strain(hermite((x + 1) / 2, h, 1) @ nodal, strain)
+                assert mean_strain(vectors, strain)[0, e] == pytest.approx(mean, rel=1e-10)
+
+    @pytest.mark.parametrize("stretch", [0.4, 0.95, 1.0, 1.7])
+    def test_least_stretch_of_cables(self, stretch):
+        """Of a straight one that is shrunk or stretched evenly; the least of several counts."""
+        system = System(cable("straight", elements=3)[0])
+        q, _ = system.initial_state()
+        assert least_stretch(system, q) == pytest.approx(1.0)
+        assert least_stretch(system, stretch * q) == pytest.approx(stretch, rel=1e-12)
 
     @pytest.mark.parametrize("strain", ["paper", "material"])
     def test_compression_of_chords(self, strain):

@@ -1,12 +1,14 @@
 """A series in units of one quantity is refused where another one is meant, and taken where it belongs."""
 
 import json
+import math
 
 import pytest
 
 import ancf
+from ancf.cosimulation.units import BaseUnit, base_unit
 from ancf.model.file import read_study
-from ancf.model.units import KINDS
+from ancf.model.units import KINDS, factor, in_plain_units, kind_of
 
 #: Where a series may stand, with the unit of the package that belongs there.
 PLACES = {
@@ -115,3 +117,45 @@ def test_a_run_of_a_file_without_units_goes_on(tmp_path, unit):
     other = moved(value=[0.0, 0.5 * scale, scale], unit=unit)
     with pytest.raises(ancf.ModelError, match=r"resume\.model"):
         ancf.resume(path, model=other, t_end=0.3)
+
+
+#: Units by their definitions, in m, s, kg and rad.
+DEFINED = {
+    "kn": 1852.0 / 3600.0,
+    "km/h": 1000.0 / 3600.0,
+    "in": 25.4e-3,
+    "ft": 12 * 25.4e-3,
+    "lbf": 0.45359237 * 9.80665,
+    "g": 9.80665,
+    "deg/s": 2 * math.pi / 360.0,
+    "deg/s^2": 2 * math.pi / 360.0,
+    "rpm": 2 * math.pi / 60.0,
+    "%": 1e-2,
+}
+
+
+@pytest.mark.parametrize("unit", DEFINED)
+def test_sizes_of_units(unit):
+    assert factor(unit, "here") == pytest.approx(DEFINED[unit], rel=1e-12)
+    assert factor(unit, "here", kind_of(unit)) == factor(unit, "here")
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_units_are_those_that_exported_units_have(kind):
+    """Two tables, of columns and of descriptions, say the same of what both know."""
+    whole = base_unit(kind) if kind else BaseUnit(1.0, {})
+    known = [(unit, base_unit(unit)) for unit in KINDS[kind] if unit not in ("", "g", "kn", "in")]
+    assert all(found.exponents == whole.exponents for _, found in known if found is not None)
+    for unit, found in known:
+        if found is not None:
+            assert factor(unit, "here") == pytest.approx(found.factor / whole.factor, rel=1e-12)
+
+
+@pytest.mark.parametrize("unit", ["ms", "kN", "deg", "mm"])
+def test_columns_in_plain_units(unit):
+    """Empty entries stay; heads lose their units; plain columns stay as they are."""
+    found = in_plain_units({f"a [{unit}]": ["2", "", -0.5], "b": ["3", "4", "5"]}, "table")
+    size = {"ms": 1e-3, "kN": 1e3, "deg": math.pi / 180, "mm": 1e-3}[unit]
+    assert found["a"][1] == ""
+    assert [found["a"][0], found["a"][2]] == pytest.approx([2 * size, -0.5 * size], rel=1e-15)
+    assert found["b"] == ["3", "4", "5"]

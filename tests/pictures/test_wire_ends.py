@@ -74,9 +74,8 @@ class TestScale:
         assert all(c.scale is None for c in found if c.name not in forces)
 
 
-@pytest.mark.parametrize("points", [0, 1, 3])
-@pytest.mark.parametrize("speed", [2.0, 8.0])
-def test_wires_without_recorded_supports_have_none(points, speed):
+def pushed(places, speed):
+    """A head that runs along a wire of 10 m from 1 m on, and points of the wire, recorded in this order."""
     model = ancf.Model(gravity=(0, 0, -9.81))
     section = ancf.Section(EA=1e5, EI=1.0, rhoA=0.5)
     wire = model.add_beam("wire", start=(0, 0, 0), end=(10, 0, 0), elements=20, length=9.99, section=section)
@@ -86,7 +85,23 @@ def test_wires_without_recorded_supports_have_none(points, speed):
     model.hold(head, position="xy", displacement=[f"{speed}*t", 0, 0])
     model.add_force(head, (0, 0, 30.0))
     touch = model.add_contact(head, wire, stiffness=5e4, strip=(0, 1, 0), name="touch")
-    sensors = [touch, *(wire.at(2.0 * (k + 1)) for k in range(points))]
-    result = ancf.simulate(model, t_end=0.5, step=1e-3, sensors=sensors)
+    return ancf.simulate(model, t_end=0.5, step=1e-3, sensors=[touch, *map(wire.at, places)])
+
+
+@pytest.mark.parametrize("order", [(2, 4, 6, 8), (8, 6, 4, 2), (4, 8, 2, 6), (6, 2, 8, 4)])
+def test_supports_may_be_recorded_in_any_order(order):
+    """From 2 m on the head is past the first of them, and it stops before the last one."""
+    result = pushed([float(x) for x in order], 8.0)
+    force = result.sensors.contact_force("touch")
+    inside = 1.0 + 8.0 * result.sensors.t >= 2.0
+    changed = np.where(inside, force, 1e4)
+    low, high = wire_ends.scale(result, Histories(result), "touch", changed)
+    assert (low, high) == pytest.approx((force[inside].min(), force[inside].max()), abs=0.5)
+
+
+@pytest.mark.parametrize("points", [0, 1, 3])
+@pytest.mark.parametrize("speed", [2.0, 8.0])
+def test_wires_without_recorded_supports_have_none(points, speed):
+    result = pushed([2.0 * (k + 1) for k in range(points)], speed)
     force = result.sensors.contact_force("touch")
     assert wire_ends.scale(result, Histories(result), "touch", force) is None

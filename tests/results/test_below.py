@@ -42,6 +42,33 @@ def test_bodies_below_a_ground(kind, ground, at):
             assert "add_surface" in said[0]
 
 
+@pytest.mark.parametrize("count", [20, 1300])
+def test_when_a_body_was_deepest(count):
+    """Thrown down against a steady force; of long histories not every state is looked at."""
+    made = ancf.Model()
+    body = made.add_point_mass("load", at=(0, 0, 1.0), mass=1.0)
+    body.set_motion(velocity=(0, 0, -4.0))
+    made.add_force(body, (0, 0, 4.0))
+    made.add_ground("bed", height=0.0, stiffness=1e5)
+    result = ancf.simulate(made, t_end=2.0, step=2.0 / count)
+    [said] = [text for text in result.notes if "below the ground" in text]
+    assert float(said.split("t = ")[1].split()[0]) == pytest.approx(1.0, abs=0.01)
+    assert float(said.split()[2]) == pytest.approx(1.0, rel=0.01)
+
+
+@pytest.mark.parametrize("size", [0.05, 1.0, 300.0])
+@pytest.mark.parametrize(("depth", "count"), [(5e-5, 0), (8e-4, 1)])
+def test_depths_are_in_sizes_of_the_model(size, depth, count):
+    made = ancf.Model()
+    rod = made.add_beam("rod", start=(0, 0, size), end=(size, 0, size), elements=1, section=CABLE)
+    made.clamp(rod.start)
+    load = made.add_point_mass("load", at=(0, 0, -depth * made.size), mass=1.0)
+    made.pin(load)
+    made.add_ground("bed", height=0.0, stiffness=1e5)
+    found = [text for text in ancf.equilibrium(made).notes if "below the ground" in text]
+    assert len(found) == count
+
+
 def test_a_rope_that_is_pressed_at_rest():
     found = []
     for shift in (0.0, -5e-6):

@@ -9,7 +9,7 @@ from ancf.errors import ModelError
 
 def fall(gravity=9.81, step=0.01, t_end=1.0, **more):
     model = ancf.Model(gravity=(0, 0, -gravity))
-    model.add_point_mass("ball", at=(0, 0, 0), mass=2.0)
+    model.add_point_mass("ball", at=(0.3, -2, 5), mass=2.0)
     model.add_point_mass("held", at=(1, 0, 0), mass=2.0)
     model.pin("held")
     return ancf.simulate(model, t_end=t_end, step=step, **more)
@@ -40,7 +40,7 @@ def test_what_cannot_be_compared():
     with pytest.raises(ModelError, match='"bal" is no point'):
         run.compare(run, points=["bal"])
     model = ancf.Model()
-    model.add_point_mass("ball", at=(0, 0, 0), mass=1.0)
+    model.add_point_mass("ball", at=(0.3, -2, 5), mass=1.0)
     other = ancf.simulate(model, t_end=1.0, step=0.1)
     with pytest.raises(ModelError, match='has no body "held"'):
         run.compare(other)

@@ -1,12 +1,15 @@
 """Steps that are long for what moves are said, with the period of beam theory; results of long runs, room."""
 
+from typing import NamedTuple
+
 import numpy as np
 import pytest
 
 import ancf
 from ancf.errors import ModelError
-from ancf.results import resolution, room
+from ancf.results import accuracy, resolution, room
 from ancf.results.read_store import Rows
+from ancf.results.state import Energy
 
 LENGTH, EI, RHO_A = 0.8, 1.0, 0.6
 
@@ -108,6 +111,37 @@ class TestDrift:
         drift = run.energy.drift
         shown = f"at most {np.max(np.abs(drift)):.2g} (end {drift[-1]:.2g}) J"
         assert f"drift of the balance {shown}" in str(run)
+
+
+class Recorded(NamedTuple):
+    """A history with these energies, of a model that nobody knows any more."""
+
+    t: np.ndarray
+    energy: Energy
+    provenance: dict
+
+    @property
+    def system(self):
+        raise ModelError("file", "is of another version")
+
+
+@pytest.mark.parametrize("height", [0.0, 1e5, -3e7])
+@pytest.mark.parametrize("method", ["trapezoidal", "explicit", "generalized_alpha", "radau"])
+@pytest.mark.parametrize("share", [0.1, 0.01, -0.01, -0.1])
+def test_energy_that_does_not_add_up(height, method, share):
+    """In parts of what is exchanged, wherever the origin is; methods that damp may lose some."""
+    t = np.linspace(0.0, 1.0, 21)
+    kinetic, none = 20.0 * np.sin(2 * np.pi * t) ** 2, 0.0 * t
+    energy = Energy(kinetic, none, height - kinetic + 20.0 * share * t, none, none)
+    known = Recorded(t, energy, {"settings": {"integrator": method}})
+    exchanged = max(kinetic.max(), np.max(np.abs(energy.potential - height)))
+    keeps = method in ("trapezoidal", "explicit")
+    wanted = abs(share) > 0.02 and (share > 0.0 or keeps)
+    found = accuracy.of_energy(known)
+    assert len(found) == wanted
+    for text in found:
+        how = "came from nowhere" if share > 0.0 else "were lost"
+        assert text.startswith(f"2 J {how} until t = 1 s, {100 * 2.0 / exchanged:.2g} % of the energy")
 
 
 class TestRoom:

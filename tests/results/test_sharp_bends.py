@@ -27,13 +27,15 @@ def root_curvature(load, towards):
     return np.sqrt(2 * load * (np.cos(end - towards) - np.cos(towards)))
 
 
-def pulled(load, towards, elements, EA=1e4, EI=1.0, length=1.0):
+def pulled(load, towards, elements, EA=1e4, EI=1.0, length=1.0, clamped="start"):
     model = ancf.Model()
     section = ancf.Section(EA=EA * EI / length**2, EI=EI, rhoA=1.0)
-    beam = model.add_beam("rod", start=(0, 0, 0), end=(length, 0, 0), elements=elements, section=section)
-    model.clamp(beam.start)
+    ends = [(0, 0, 0), (length, 0, 0)][:: 1 if clamped == "start" else -1]
+    beam = model.add_beam("rod", start=ends[0], end=ends[1], elements=elements, section=section)
+    model.clamp(beam.start if clamped == "start" else beam.end)
     force = load * EI / length**2
-    model.add_force(beam.end, (force * np.cos(towards), 0, force * np.sin(towards)))
+    free = beam.end if clamped == "start" else beam.start
+    model.add_force(free, (force * np.cos(towards), 0, force * np.sin(towards)))
     return beam, ancf.equilibrium(model, load_steps=10)
 
 
@@ -60,11 +62,12 @@ class TestElastica:
 
     @pytest.mark.parametrize("length", [0.01, 1.0, 300.0])
     @pytest.mark.parametrize("EI", [1e-4, 1e3])
-    def test_the_note_says_where_and_what_to_do(self, length, EI):
-        _, state = pulled(30.0, np.pi / 2, 3, EI=EI, length=length)
+    @pytest.mark.parametrize("clamped", ["start", "end"])
+    def test_the_note_says_where_and_what_to_do(self, length, EI, clamped):
+        _, state = pulled(30.0, np.pi / 2, 3, EI=EI, length=length, clamped=clamped)
         [text] = said(state)
         [found] = sharp_bends.sharp_bends(state)
-        assert (found.body, found.point, found.t) == ("rod", "rod.start", 0.0)
+        assert (found.body, found.point, found.t) == ("rod", f"rod.{clamped}", 0.0)
         assert found.element == pytest.approx(length / 3)
         assert found.bend == pytest.approx(1.698, rel=5e-3)
         assert '"rod" bends too sharply' in text

@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 
 import ancf
+from ancf.results.wavering import _across as across
+from ancf.results.wavering import strain_slope
 
 DOWN = (0.0, 0.0, -9.81)
 
@@ -37,6 +39,24 @@ def test_is_said_where_forces_at_nodes_are_wrong(elements, EA, EI, load):
         assert said(state), error
     if error < 0.03:
         assert not said(state), error
+
+
+@pytest.mark.parametrize("strain", ["paper", "material"])
+@pytest.mark.parametrize(("first", "last"), [(1.0, 1.2), (0.9, 0.8), (1.3, 1.3)])
+@pytest.mark.parametrize("along", [(1.0, 0.0, 0.0), (0.0, -0.6, 0.8)])
+def test_half_of_what_a_strain_gains_over_an_element(strain, first, last, along):
+    """Of a tangent whose length goes from one to the other on a straight line."""
+    middle = 0.5 * (first + last)
+    vectors = [tuple(np.full((1, 1), x * c) for x in (middle, first, last)) for c in along]
+    wanted = 0.5 * (last - first) * (middle if strain == "paper" else 1.0)
+    assert strain_slope(vectors, strain)[0, 0] == pytest.approx(wanted, abs=1e-14)
+
+
+@pytest.mark.parametrize("elements", [2, 5, 16])
+@pytest.mark.parametrize(("EI", "load"), [(1.0, 1e-4), (200.0, 0.02)])
+def test_a_cantilever_carries_its_load_across(elements, EI, load):
+    beam, state = bent(elements, 1e5, EI, load)
+    assert across(state, beam, state.q[None]) == pytest.approx(np.full((1, elements), load), rel=1e-4)
 
 
 def rope(load=None, **section):
