@@ -2,6 +2,7 @@
 
 import pickle
 
+import h5py
 import numpy as np
 import pytest
 
@@ -106,3 +107,18 @@ class TestRefused:
     def test_a_name_that_the_file_has_not(self, both):
         with pytest.raises(ancf.ModelError, match=r"there is none by .*rope\.EI.*rope\.EA"):
             both[1].sensitivity("rope.EI")
+
+    @pytest.mark.parametrize("data", ["q", "v"])
+    @pytest.mark.parametrize(("more", "wider"), [(1, 0), (7, 0), (0, 1), (0, -1)])
+    def test_what_does_not_belong_to_the_states(self, both, tmp_path, data, more, wider):
+        """More rows than states, or of another width."""
+        memory, _ = both
+        memory.save(tmp_path / "other.h5")
+        with h5py.File(tmp_path / "other.h5", "r+") as file:
+            group = file["sensitivities/1"]
+            rows, width = group[data].shape
+            del group[data]
+            group[data] = np.zeros((rows + more, width + wider))
+        with pytest.raises(ancf.ModelError, match=f"sensitivities/1/{data} does not fit") as caught:
+            ancf.load(tmp_path / "other.h5")
+        assert str(len(memory.t)) in caught.value.what

@@ -14,6 +14,7 @@ from ancf.elements.solid_strains import quadratic_part
 from ancf.linalg.border import room_for_border
 from ancf.simd import LANES
 from ancf.solvers import corotation as turning
+from ancf.solvers.account import Account
 from ancf.solvers.carry import carry
 from ancf.solvers.corotation import turn_rows
 from ancf.solvers.corrections import largest, shift, update
@@ -514,3 +515,27 @@ class TestDifferences:
             differences(given, first + 0.1 * np.arange(1, 5), 0.1, 0.0, 1.0)
         assert min(asked) >= -1e-12
         assert max(asked) <= 1.0 + 1e-12
+
+
+class Counted(Account):
+    """What a run knows of its energies, J: at the start, astray, exchanged."""
+
+    def __init__(self, start, astray, exchanged):
+        self.energy0, self.astray, self.exchanged = np.array([0.0, start, -start]), astray, exchanged
+
+
+class TestCaution:
+    @pytest.mark.parametrize("exchanged", [1e-9, 3.0, 1e12])
+    @pytest.mark.parametrize("share", [0.0, 0.1, 0.19, 0.21, 0.7, 30.0])
+    def test_from_a_fifth_of_what_is_exchanged_on(self, share, exchanged):
+        text = Counted(0.0, share * exchanged, exchanged).caution
+        assert bool(text) == (share > 0.2)
+        if text:
+            assert f"{share * exchanged:.2g} J came from nowhere" in text
+            assert f"{100 * share:.2g} % of what was exchanged" in text
+
+    @pytest.mark.parametrize("start", [1.0, 1e6])
+    @pytest.mark.parametrize(("digits", "said"), [(1e-10, False), (1e-8, True)])
+    def test_round_off_of_what_there_was_is_none(self, start, digits, said):
+        """Of large energies that hardly change some are lost by rounding."""
+        assert bool(Counted(start, digits * start, 0.1 * digits * start).caution) == said

@@ -343,6 +343,24 @@ class TestOutput:
         clamp = 0.1 * np.sin(7 * result.t) ** 3
         assert result.position("beam.start")[:, 1] == pytest.approx(clamp, abs=1e-13)
 
+    @pytest.mark.parametrize("is_adaptive", [True, False])
+    @pytest.mark.parametrize(("t_end", "every"), [(0.06, 1), (0.06, 4), (0.05, 7), (0.03, 200)])
+    def test_samples_are_the_states_where_both_are_stored(self, is_adaptive, t_end, every):
+        """To the last bit, also at an end that is no whole output step; between them is a smooth way."""
+        model, beam = pendulum(EA=100.0)
+        result = ancf.simulate(
+            model, t_end=t_end, step=1e-3, output_step=1e-3 * every, sensors=[beam.end],
+            integrator=ancf.Radau(adaptive=is_adaptive),
+        )  # fmt: skip
+        sensors, count = result.sensors, round(1e3 * t_end)
+        assert sensors.t == pytest.approx(1e-3 * np.arange(count + 1), abs=1e-15)
+        places = [min(k * every, count) for k in range(len(result.t))]
+        for ask in ("position", "velocity"):
+            assert np.array_equal(getattr(sensors, ask)(beam.end)[places], getattr(result, ask)(beam.end))
+        way = np.diff(sensors.position(beam.end), axis=0)
+        mean = 0.5e-3 * (sensors.velocity(beam.end)[1:] + sensors.velocity(beam.end)[:-1])
+        assert way == pytest.approx(mean, abs=2e-3 * np.abs(mean).max())
+
     def test_going_on(self):
         model, beam = pendulum(EA=100.0)
         given = {"step": 1e-3, "integrator": ancf.Radau(tolerance=1e-8)}
