@@ -7,6 +7,7 @@ from test_view_browser import Opened
 
 from ancf.viz.scene import Marker, Scene, Thread
 from ancf.viz.view import page
+from helpers import some
 
 #: Sum over the colours of letters; lines of the grid are lighter.
 DARK = 300
@@ -45,7 +46,7 @@ def opened(browser, folder, scene, size=(900, 560)):
 
 @pytest.mark.parametrize("view", VIEWS)
 class TestFlatViews:
-    @pytest.mark.parametrize("aside", [1.2, 0.8])
+    @pytest.mark.parametrize("aside", some([1.2, 0.8]))
     def test_labels_lie_beside_what_is_drawn(self, browser, tmp_path, view, aside):
         shown = opened(browser, tmp_path, hung(view, aside))
         assert shown.ask("picture.view") == view
@@ -61,7 +62,9 @@ class TestFlatViews:
         shown.quiet()
         shown.tab.close()
 
-    @pytest.mark.parametrize("size", [(900, 560), (1200, 700), (1200, 480)])
+    @pytest.mark.parametrize(
+        "size", [(900, 560), pytest.param((1200, 700), marks=pytest.mark.slow), (1200, 480)]
+    )
     def test_title_of_the_axis_is_whole(self, browser, tmp_path, view, size):
         shown = opened(browser, tmp_path, hung(view, 1.2), size)
         dark = shown.picture().sum(axis=2) < DARK

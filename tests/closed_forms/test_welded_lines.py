@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import ancf
+from helpers import some
 
 WATER, G = 1025.0, 9.81
 #: Name, length m, elements of the coarsest mesh, diameter m, kg/m, N m^2.
@@ -45,7 +46,7 @@ def hung(times, depth, offset):
     return ancf.equilibrium(model)
 
 
-@pytest.mark.parametrize("times", [2, 4, 6, 9])
+@pytest.mark.parametrize("times", some([2, 4, 6, 9]))
 @pytest.mark.parametrize(("depth", "offset"), [(150.0, 110.0), (130.0, 90.0), (140.0, 110.0), (160.0, 110.0)])
 def test_on_any_mesh(times, depth, offset):
     """The clamps carry the submerged weight, and tensions go to a limit with the second power at least."""

@@ -9,6 +9,7 @@ import pytest
 
 import ancf
 from ancf.model.vary import varied
+from helpers import some
 
 LENGTH, WEIGHT = 4.0, 0.2 * 9.81
 ROPE = ancf.Section(EA=1e4, EI=0.05, rhoA=0.2)
@@ -34,7 +35,7 @@ def asked(rope):
 
 
 @pytest.mark.parametrize("upwards", [False, True])
-@pytest.mark.parametrize("elements", [1, 2, 5, 8])
+@pytest.mark.parametrize("elements", some([2, 1, 5, 8]))
 def test_tension_of_a_hanging_rope(elements, upwards):
     """w per metre below the support at a given distance from it, none at one from the free end."""
     model, rope = hanging(elements, upwards)

@@ -9,6 +9,7 @@ import ancf
 from ancf.sensitivity.adjoint_joints import JoinedAdjoint, adjoint_of
 from ancf.sensitivity.adjoint_sloped import SlopedAdjoint
 from ancf.system.system import System
+from helpers import some
 
 TIGHT = ancf.Newton(tolerance=1e-14, modified=False)
 METHODS = [
@@ -94,7 +95,7 @@ def over_a_pulley(shape="sheave", damping=30.0, stiffness=2e4):
     return model
 
 
-@pytest.mark.parametrize("method", ["trapezoidal index1", "trapezoidal ggl", "generalized index2"])
+@pytest.mark.parametrize("method", some(["trapezoidal ggl", "trapezoidal index1", "generalized index2"]))
 @pytest.mark.parametrize(("shape", "damping", "stiffness"), [("sheave", 30.0, 2e4), ("cylinder", 0.0, 1e5)])
 def test_surfaces_on_bodies(shape, damping, stiffness, method):
     """A body on a hinge, whose surface a cable presses: both move."""

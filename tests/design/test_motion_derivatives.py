@@ -1,9 +1,12 @@
 """Derivatives of reactions and accelerations in motion, of stored states, against differences of runs."""
 
+from itertools import product
+
 import numpy as np
 import pytest
 
 import ancf
+from helpers import some
 from random_models import RandomModel
 from slopes import extrapolated, once
 
@@ -41,8 +44,7 @@ ASKED = [
 NAMES = ["beam.length", "body.mass", "tie.stiffness", "gravity", "beam.start[2]"]
 
 
-@pytest.mark.parametrize("name", NAMES)
-@pytest.mark.parametrize("element", ["cable", "original", "nonlocking"])
+@pytest.mark.parametrize(("element", "name"), some(list(product(["cable", "original", "nonlocking"], NAMES))))
 def test_against_differences(element, name):
     model = hung(element)
     run = once(lambda other: ancf.simulate(other, **GIVEN))

@@ -6,6 +6,7 @@ from scipy.spatial.transform import Rotation
 from test_lay_kernels import SHAPES, laid, put, stage
 
 import ancf
+from helpers import some
 from sloped import check_along, check_beside
 
 BELOW = SHAPES | {
@@ -25,7 +26,7 @@ def touching(name, depth, damping, along, seed, speed):
     return system, (q, speed * rng.uniform(-1, 1, q.size), 0.0 * q)
 
 
-@pytest.mark.parametrize(("damping", "speed"), [(0.0, 0.0), (100.0, 0.02), (30.0, 0.3)])
+@pytest.mark.parametrize(("damping", "speed"), some([(30.0, 0.3), (0.0, 0.0), (100.0, 0.02)]))
 @pytest.mark.parametrize("depth", DEPTHS)
 @pytest.mark.parametrize("along", [False, True], ids=["anyhow", "along"])
 @pytest.mark.parametrize("name", [name for name in BELOW if name != "sphere"])
