@@ -58,7 +58,6 @@ import json, os, sys, warnings
 import numpy as np
 import ancf
 from ancf.control.delay import Delayed
-from helpers import some
 
 path, folder, how = sys.argv[1:]
 model = ancf.Model(gravity=(0, 0, -9.81))
