@@ -11,8 +11,10 @@ import numpy as np
 from ..arrays import FloatArray
 from ..batches import Batches
 from ..compiled import Role, traits
+from ..model.bodies import PointMass
 from ..model.joints import Slide
 from ..system.core import Tables
+from ..system.initial_motion import at_rest
 from ..system.system import System
 
 #: Component of a slope, in the size of this, up to which it is zero.
@@ -55,6 +57,7 @@ class Known:
     def __init__(self, system: System) -> None:
         self.tables = _tables(system)
         self.size = float(system.model.size)
+        self.rests = not system.inputs.rotations and all(map(at_rest, system.model.bodies.values()))
         self._system = ref(system)
         self._states: dict[float, tuple[FloatArray, FloatArray]] = {}
         self._shape: FloatArray | None = None
@@ -176,14 +179,28 @@ def same_loads(a: System, b: System) -> bool:
     return same and _same_functions(a, b)
 
 
+def _begins_as(body: Any, other: Any) -> bool:
+    """Whether bodies begin alike: the same ones, or masses at the same place."""
+    if body is other or not (isinstance(body, PointMass) and isinstance(other, PointMass)):
+        return body is other
+    return np.array_equal(body.position, other.position) and np.array_equal(body.velocity, other.velocity)
+
+
 def begins_alike(a: System, b: System) -> bool:
     """Whether all on which the initial shape and motion depend is the same."""
     mine, other = a.model, b.model
     same = a.inputs is b.inputs or (_unmoved(a, b) and mine.inputs is other.inputs)
-    same = same and all(body is other.bodies[name] for name, body in mine.bodies.items())
+    same = same and all(_begins_as(body, other.bodies[name]) for name, body in mine.bodies.items())
     same = same and all(x is y for x, y in zip(mine.supports, other.supports, strict=True))
     pairs = zip(mine.connections, other.connections, strict=True)
     return same and all(x is y for x, y in pairs if isinstance(x, Slide))
+
+
+def stays_at_rest(base: System, system: System) -> bool:
+    """Whether no body of either has an initial velocity, and no local axes turn."""
+    own = base.model.bodies
+    changed = (body for name, body in system.model.bodies.items() if body is not own[name])
+    return Known.of(base).rests and all(map(at_rest, changed))
 
 
 def alike(a: System, b: System) -> bool:

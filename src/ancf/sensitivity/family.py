@@ -22,7 +22,7 @@ from ..errors import ModelError
 from ..system.beside import SLIDES, beside
 from ..system.core import Tables
 from ..system.system import System
-from .alike import Known, alike, begins_alike, changed, same_inputs, same_loads
+from .alike import Known, alike, begins_alike, changed, same_inputs, same_loads, stays_at_rest
 from .offsets import ABOVE, BENT, BOTH, FOUR, KINKED, PAIR, STEEP, STEP, TINY
 from .parameters import Parameter
 from .pushing import Pushing
@@ -212,12 +212,13 @@ class Family(Pushing):
         if self.parameter.linear:  # in it nothing but forces changes
             self._shape = [np.zeros(base.size)] * len(systems)
         else:
-            self._begun[id(base)] = Known.of(base).initial_state(0.0)
-            shape = self._begun[id(base)][0]
+            begun = self._begun
+            begun[id(base)] = Known.of(base).initial_state(0.0)
+            shape = begun[id(base)][0]
             for system in systems:
-                if id(system) not in self._begun:
-                    self._begun[id(system)] = quiet_state(system)
-            self._states = [self._begun[id(system)] for system in systems]
+                if id(system) not in begun:
+                    begun[id(system)] = begun[id(base)] if begins_alike(base, system) else quiet_state(system)
+            self._states = [begun[id(system)] for system in systems]
             self._shape = [q - shape for q, _ in self._states]
         self._flags = [
             (getattr(s.parts[name], key), name, key)
@@ -369,11 +370,9 @@ class Family(Pushing):
 
     def of_states(self, time: float) -> tuple[FloatArray, FloatArray]:
         """Derivatives of the initial shape and motion, (size,) each."""
-        if self.parameter.linear:
-            return np.zeros(self.base.size), np.zeros(self.base.size)
         if self._ends is not None:
             return self._ends
-        if all(begins_alike(self.base, system) for system in self.systems):
+        if self.parameter.linear or all(begins_alike(self.base, system) for system in self.systems):
             return np.zeros(self.base.size), np.zeros(self.base.size)
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # what holds against a given motion was said of the model itself
@@ -391,6 +390,8 @@ class Family(Pushing):
 
     def of_motion(self, q: FloatArray, dq: FloatArray, time: float) -> FloatArray:
         """Derivative of the velocities of ``set_motion`` at a shape that changes by dq, (size,)."""
+        if self.plain and all(stays_at_rest(self.base, system) for system in self.systems):
+            return np.zeros(self.base.size)
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             each = zip(self.systems, self.offsets, self.weights, strict=True)

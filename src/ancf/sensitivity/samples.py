@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 
 from ..arrays import FloatArray
-from ..compiled import Role, traits
 from ..model.bodies import Body
 from ..model.lookup import parse_point
 from ..model.points import Point
@@ -45,14 +44,13 @@ class Samples:
         self.sampling = sampling_of(system)
         self.known = measured_of(self.sampling)
         self.near: list[list[Any]] = []
+        measuring = list(self.sampling.batches)
+        asked = [name for name, part in system.parts.items() if any(part is own for own in measuring)]
         for family in families if self.sampling.width else ():
             for own in family.systems:
                 own.sensors = listing
-            alone = [
-                own for own in family.systems if own is family.base
-            ]  # it measures what the model measures
-            asked = family.systems if family.changed & _measuring(system) else alone
-            self.near.append([sampling_of(own) if own in asked else None for own in family.systems])
+            other = not family.changed.isdisjoint(asked)  # all else measures what the model does
+            self.near.append([sampling_of(own) if other else None for own in family.systems])
         rows = steps + 1 if self.sampling.width else 0
         self.rows = np.zeros((len(families), rows, self.sampling.width))
         self.weight = system.core.weight
@@ -65,13 +63,11 @@ class Samples:
         k, j, moved = len(s.unknowns), len(s.entries), len(s.moved)
         q, v, made = (np.ascontiguousarray(x) for x in (q, v, made))
         here = self._rows(s, q, v) if j else np.zeros((count, s.width))
-        for p in range(len(self.families)):
-            row = self.rows[p, self.done : self.done + count]
-            row[:, :k] = made[p, :, 0][:, s.unknowns]
-            row[:, k : 2 * k] = made[p, :, 1][:, s.unknowns]
-            if j:
-                row[:, 2 * k : 2 * k + j] = self._measured(p, (q, v), made[p], here)[:, 2 * k : 2 * k + j]
-            row[:, 2 * k + j : 2 * k + j + moved] = made[p, :, 2][:, s.moved]
+        rows = self.rows[:, self.done : self.done + count]
+        rows[..., :k], rows[..., k : 2 * k] = made[:, :, 0, s.unknowns], made[:, :, 1, s.unknowns]
+        rows[..., 2 * k + j : 2 * k + j + moved] = made[:, :, 2, s.moved]
+        for p in range(len(self.families) if j else 0):
+            rows[p, :, 2 * k : 2 * k + j] = self._measured(p, (q, v), made[p], here)[:, 2 * k : 2 * k + j]
         self.done += count
 
     def _measured(
@@ -94,11 +90,6 @@ class Samples:
         rows = np.zeros((len(q), sampling.width))
         sample_rows(sampling, q, v, rows)
         return rows
-
-
-def _measuring(system: System) -> set[str]:
-    """Names of the batches that measure."""
-    return {name for name, part in system.parts.items() if Role.MEASURES in traits(part).role}
 
 
 class _Recorded(Sensors):

@@ -11,6 +11,7 @@ from ..errors import SolveError
 from ..later import LinearOperator, csc_array, gmres, splu
 from ..linalg.sparse import to_sparse
 from ..solvers.directions import products_along
+from ..solvers.sensitivity import Way
 from ..solvers.statics import STENCIL_STEP
 from ..system.contacts import touching
 from ..system.core import Core, assemble, follow_supports, place_supports, restrict
@@ -18,6 +19,8 @@ from ..system.system import System
 from .base import matrices_of, moved_with
 from .family import Family
 from .leaning import Leaning
+from .nearby import Nearby
+from .values import Push
 
 #: Residual of the equations, relative to their right-hand side, that is aimed at and that is accepted; part
 #: of the solution by which what is left may change it: on stiff grounds that is round-off of places.
@@ -61,9 +64,10 @@ def of_equilibrium(
     place_supports(core.supports, core.loads.value, tables, 0, q, zero, zero.copy())
     solve, stiff = _solver(system, core, q, friction)
     found, left = [], np.setdiff1d(core.supports.held, system.held)
+    plain = {} if friction is not None else _plainly(system, core, q, families, (time - h, h, time, np.inf))
     for k, family in enumerate(families):
         family.know(system)
-        push = family.at_rest(core, q, (time, h))
+        push = plain[k] if k in plain else family.at_rest(core, q, (time, h))
         own = _described(core, family, left, time)
         if np.any(own):
             push.push[0, : system.n] += stiff(own)
@@ -75,6 +79,19 @@ def of_equilibrium(
     if friction is not None:
         friction.end(np.array(found))
     return found
+
+
+def _plainly(
+    system: System, core: Core, q: FloatArray, families: list[Family], when: tuple[float, float, float, float]
+) -> dict[int, Push]:
+    """What parameters that change no support and no row of a joint do to a state at rest, by family."""
+    nearby, zero, none = Nearby(families, system), np.zeros((1, q.size)), np.zeros((3, 1, q.size))
+    tables = system.inputs.tables(*when[:2], 1, *when[2:])
+    nearby.know()
+    pushes = nearby.plain_at_steps(Way(q[None].copy(), zero.copy(), zero.copy()), when, tables)
+    pushes[..., core.supports.held] = 0.0
+    each = zip(nearby.plain, pushes, strict=True)
+    return {k: Push(push, zero, none) for k, push in each if families[k].plain}
 
 
 def _leant(system: System, core: Core, time: float, families: list[Family], friction: Leaning) -> FloatArray:
