@@ -10,13 +10,18 @@ from __future__ import annotations
 
 import sys
 import time
+from functools import partial
+from pathlib import Path
 from statistics import median
 from typing import Any
 
 import ancf
+from ancf import catenary
 from ancf.paper import cantilever, pendulum, sliding
 
 COUNTS = 1, 8, 16
+#: Of a run along a line.
+DROPPERS = [f"{span}-{number}" for span in (2, 3) for number in range(1, 8)] + ["4-1", "4-2"]
 ROUNDS = 5
 #: Of a beam, in this order.
 SEA = {"spectrum": "jonswap", "height": 4.0, "period": 9.0, "depth": 60.0, "components": 60, "seed": 1}
@@ -256,6 +261,19 @@ def _set(steps: int, step: float) -> dict[str, Any]:
     return {"t_end": steps * step, "step": step}
 
 
+def along_line() -> list[float]:
+    """Of a run along four spans of an overhead line s, and by lengths of droppers runs each."""
+    line = catenary.read_line(Path(__file__).parents[1] / "examples" / "droppers_line.toml")
+    given = {"speed": 280.0 / 3.6, "pantograph": "en50318-2002", "step": 2e-3, "window": (65.0, 195.0)}
+    shape = catenary.form(line, catenary.Mesh(contact=2.0, messenger=3.0))
+
+    def by(count: int) -> None:
+        wanted = {"sensitivities": {name: [name] for name in DROPPERS[:count]}} if count else {}
+        catenary.run(shape, start=14.0, **given, **wanted)
+
+    return ratios(lambda: by(0), [partial(by, count) for count in COUNTS])
+
+
 def seconds(work: Any) -> float:
     """Processor time of a call."""
     begin = time.process_time()
@@ -274,12 +292,17 @@ def measured(model: ancf.Model, names: list[str], objective: str, settings: dict
         works.append(lambda n=count: ancf.simulate(model, sensitivities=names[:n], **settings))
     for count in COUNTS:
         works.append(lambda n=count: ancf.gradient(model, objective, names[:n], **settings))
+    return ratios(run, works)
+
+
+def ratios(run: Any, works: list[Any]) -> list[float]:
+    """Processor time of a run in s, and of each of the works in runs, medians of some rounds."""
     for work in (run, *works):
         work()
     pairs = [[(seconds(run), seconds(work)) for work in works] for _ in range(ROUNDS)]
     runs = [own for row in pairs for own, _ in row]
-    ratios = [[theirs / own for own, theirs in row] for row in pairs]
-    return [median(runs), *(median(column) for column in zip(*ratios, strict=True))]
+    found = [[theirs / own for own, theirs in row] for row in pairs]
+    return [median(runs), *(median(column) for column in zip(*found, strict=True))]
 
 
 if __name__ == "__main__":
@@ -293,3 +316,7 @@ if __name__ == "__main__":
             forward, back = found[:k], found[k:]
             row = [*forward, (forward[-1] - forward[0]) / n, *back, (back[-1] - back[0]) / n]
             print(f"{name:44}{run:8.3f}", *(f"{x:6.2f}" for x in row), flush=True)
+    if not sys.argv[1:] or "line" in sys.argv[1:]:
+        run, *forward = along_line()
+        each = (forward[-1] - forward[0]) / (COUNTS[-1] - COUNTS[0])
+        print(f"{'a line of 4 spans, by droppers':44}{run:8.3f}", *(f"{x:6.2f}" for x in (*forward, each)))
