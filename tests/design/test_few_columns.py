@@ -5,7 +5,9 @@ import pytest
 
 import ancf
 from ancf.compiled import kernel
+from ancf.linalg.eight_twisted import allocate_twisted
 from ancf.sensitivity import follow
+from ancf.solvers.ahead import ahead_of
 from ancf.solvers.edge import edge_for
 from ancf.solvers.lacking import MOST_ROWS, columns_for, made_orthonormal
 from helpers import some
@@ -16,7 +18,7 @@ METHODS = {
     "ggl": ancf.GeneralizedAlpha(0.7, formulation="ggl"),
 }
 #: Numbers of a beam that all models have.
-NAMES = ["rope.EA", "rope.EI", "rope.rhoA", "rope.length", "rope.bending_damping", "gravity[2]"]
+NAMES = ["rope.EA", "rope.rhoA", "rope.length", "rope.bending_damping", "gravity[2]", "rope.start[2]"]
 
 
 def wire(model, heads, damping, rise=0.0):
@@ -93,7 +95,11 @@ def followed(build, method, monkeypatch, made=edge_for):
         return kept[-1]
 
     monkeypatch.setattr(follow, "edge_for", noted)
-    names = ["gravity[2]", "rope.length"] if build is CASES["moment and jet on a beam"] else NAMES
+    names = (
+        ["gravity[2]", "rope.length", "rope.start[2]"]
+        if build is CASES["moment and jet on a beam"]
+        else NAMES
+    )
     found = ancf.simulate(
         build(), t_end=0.0304, step=1e-3, integrator=METHODS[method], sensitivities=names, energy=False
     )
@@ -102,12 +108,18 @@ def followed(build, method, monkeypatch, made=edge_for):
     return [(q[:, places], v[:, places]) for q, v in rows], kept[-1].columns
 
 
+def without_twists(core, m, shifts):
+    """Matrices whose factors are symmetric: corrections make up for the rest."""
+    return ahead_of(core, m, shifts)._replace(twisted=allocate_twisted(core.factor, False))
+
+
 @pytest.mark.parametrize(("case", "method"), some([(c, m) for c in CASES for m in METHODS]))
 def test_at_once_is_what_corrections_come_to(case, method, monkeypatch):
-    """By the columns of each step, and without any; also where these are too many."""
+    """By the columns and factors of each step, and with symmetric factors alone; also where columns are many."""
     once, columns = followed(CASES[case], method, monkeypatch)
     assert (columns.number[2] > 0) == (case in MANY)
     assert case in MANY or 0 < columns.number[0] <= 8
+    monkeypatch.setattr(follow, "ahead_of", without_twists)
     rounds, none = followed(CASES[case], method, monkeypatch, lambda size, m: edge_for(0, m))
     assert none.probe.shape[1] == 0
     for one, other in zip(once, rounds, strict=True):

@@ -109,7 +109,7 @@ class Following:
         self.turn = self.nearby.turn_abreast()
         self.abreast = memory_abreast(self.memory, self.nearby)
         self.m = moved_with(self.system, self._matrices())
-        self.ahead = ahead_of(self.system.core, self.m)
+        self.ahead = ahead_of(self.system.core, self.m, bool(self.nearby.shifts))
         self.room = room_for(self.system.size, self.m.outside)
         self.edge = edge_for(self.system.size, self.m)
         self.given = given_start(self.families, self.run.t_start, self.system, start, where)

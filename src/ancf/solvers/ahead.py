@@ -27,21 +27,22 @@ class Ahead(NamedTuple):
     W: FloatArray  # (8, values or none), see Matrices
     eight: Eight  # all of M/B + (G/B) C + K
     twisted: Twisted  # for W, if there is some
-    turned: FloatArray  # (8, values or none) W along local axes; without such W itself
-    whole: FloatArray  # (1,) whether W is in the factors, else 0
+    turned: FloatArray  # (8, values or none) W along local axes, without held unknowns; perhaps W itself
+    whole: FloatArray  # (2,) whether W is in the factors, else 0; whether ``turned`` is not W itself
     last: FloatArray  # (2, size) what velocities added to K^T lambda in the last steps of an adjoint
     rate: FloatArray  # (1,) by which corrections of lambda shrink, at most
     friction: Friction  # that remembers the way
 
 
-def ahead_of(core: Core, m: Matrices) -> Ahead:
-    """Room for the matrices of a model."""
+def ahead_of(core: Core, m: Matrices, shifts: bool = False) -> Ahead:
+    """Room for the matrices of a model; ``shifts``: sensitivities of what is held are not zero."""
     K, C = np.zeros((2, LANES, core.A.size))
     last = np.zeros((2, m.work.shape[1]))
     W, eight = np.zeros((LANES, m.W.size)), allocate_eight(core.factor)
     twisted = allocate_twisted(core.factor, bool(m.W.size))
-    turned = W.copy() if len(core.supports.rot_slot) else W  # products take nothing from what is held
-    return Ahead(K, C, W, eight, twisted, turned, np.zeros(1), last, np.zeros(1), no_friction())
+    apart = shifts or len(core.supports.rot_slot) > 0
+    turned, whole = W.copy() if apart else W, np.array([0.0, float(apart)])
+    return Ahead(K, C, W, eight, twisted, turned, whole, last, np.zeros(1), no_friction())
 
 
 @inline_kernel
@@ -82,7 +83,7 @@ def turn_twists(core, ahead, count):
     """Fill ``turned`` with W along local axes and without held unknowns."""
     supports, turned = core.supports, ahead.turned
     for k in range(count):
-        if supports.rot_slot.shape[0] > 0:
+        if ahead.whole[1] > 0.0:
             for i in range(turned.shape[1]):
                 turned[k, i] = ahead.W[k, i]
         restrict(supports, turned[k])
@@ -105,7 +106,7 @@ def look_ahead(core, m, ahead, tables, way, first, B, G, both):
         x = (way.q[n], way.v[n])
         matrices_at(core, m, ahead.K[k], ahead.C[k], ahead.W[k], ahead.eight.A[k], x[0], x[1], B, G)
     definite, ahead.whole[0] = core.joints.multipliers.shape[0] == 0, 0.0
-    if definite and not both and m.W.shape[0] > 0:
+    if definite and not both and ahead.twisted.w.shape[0] > 0:
         turn_twists(core, ahead, count)
         if factorise_twisted(core.factor, ahead.eight, ahead.twisted, ahead.turned, count):
             ahead.whole[0] = 1.0
