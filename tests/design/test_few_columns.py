@@ -115,7 +115,7 @@ def without_twists(core, m, shifts):
 
 @pytest.mark.parametrize(("case", "method"), some([(c, m) for c in CASES for m in METHODS]))
 def test_at_once_is_what_corrections_come_to(case, method, monkeypatch):
-    """By the columns and factors of each step, and with symmetric factors alone; also where columns are many."""
+    """By the columns of each step, and with symmetric factors alone; also where columns are many."""
     once, columns = followed(CASES[case], method, monkeypatch)
     assert (columns.number[2] > 0) == (case in MANY)
     assert case in MANY or 0 < columns.number[0] <= 8
