@@ -381,7 +381,7 @@ def stable_step(model: Model, *, about: State | None = None, safety: float = 0.9
     SolveError
         The mass matrix is singular.
     """
-    method, system = Explicit(safety=safety), independent(model)
+    method, system = Explicit(safety=safety), independent(checks.kind(model, "stable_step.model", Model))
     q, v = given_state(system, about, "stable_step.about")
     return method.safety * stable_limit(system, q, v)
 

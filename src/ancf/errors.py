@@ -114,6 +114,15 @@ def named(name: Any) -> str:
     return text if text.strip() else f'"{text}"'
 
 
+def called(item: Any) -> str:
+    """The name of a thing that has one, or the text that stands for it; of what is neither, what it is."""
+    name = getattr(item, "name", item)
+    if isinstance(name, str):
+        return name
+    text = repr(name)
+    return text if len(text) <= 60 else f"{text[:57]}..."
+
+
 def _file(name: str) -> str:
     """A file as a notebook calls it: its cells are files with names of their own."""
     return "cell" if "ipykernel" in name or name.startswith("<ipython") else name

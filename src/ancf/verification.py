@@ -140,8 +140,11 @@ def verify(
         raise ModelError(
             f"verify.{missing}", "is missing", "give t_end and step, or none for the equilibrium"
         )
-    points = [str(model.point(item)) for item in outputs] if outputs is not None else None
-    names = [_name(model.sensor(item, f"verify.sensors[{k}]")) for k, item in enumerate(sensors or ())]
+    points = None
+    if outputs is not None:
+        points = [str(model.point(item)) for item in checks.items(outputs, "verify.outputs", "of points")]
+    listed = () if sensors is None else checks.items(sensors, "verify.sensors", "as of ancf.simulate")
+    names = [_name(model.sensor(item, f"verify.sensors[{k}]")) for k, item in enumerate(listed)]
 
     def repeat(again: Model, size: float | None, method: Integrator) -> Answer:
         if t_end is None or step is None or size is None:

@@ -5,6 +5,7 @@ from functools import cache
 import numpy as np
 import pytest
 
+import ancf
 import catenary_stand_in as stand_in
 from ancf import ModelError, catenary
 from overhead_lines import COARSE, STEP, collector, short_line
@@ -88,6 +89,106 @@ def test_is_named(ask, where):
     with pytest.raises(ModelError) as error:
         ask()
     assert where in error.value.where
+
+
+def _reference():
+    return catenary.reference_case("en50318-2002")
+
+
+#: A number, none, text, a list, a description, a run and a model: of each question all that it is not about.
+KINDS = {
+    "number": 3,
+    "none": None,
+    "text": "text",
+    "list": [1.0],
+    "line": short_line(),
+    "run": RUN,
+    "model": ancf.Model(),
+}
+
+
+#: What is asked with it, the place that is named, and the kinds that it may be.
+ASKED = [
+    (catenary.galloping, "galloping.line", ["line"]),
+    (catenary.arm_loads, "arm_loads.found", []),
+    (catenary.verify, "verify.overhead", []),
+    (lambda other: catenary.acceptance(RUN, found=other), "acceptance.found", ["none"]),
+    (lambda other: catenary.slopes(other), "slopes.run", ["run"]),
+    (lambda other: catenary.slopes(RUN, filter=other), "slopes.filter", ["none"]),
+    (lambda other: catenary.measure(RUN, filter=other), "measure.filter", ["none"]),
+    (lambda other: catenary.write_report(other, "report.html"), "write_report.run", ["run"]),
+    (lambda other: catenary.write_report(RUN, other), "write_report.path", ["text"]),
+    (lambda o: catenary.write_report(RUN, "a.html", reference=o), "write_report.reference", ["none"]),
+    (lambda o: catenary.write_report(RUN, "a.html", elasticity=o), "write_report.elasticity", ["none"]),
+    (lambda o: catenary.write_report(RUN, "a.html", measured=o), "write_report.measured", []),
+    (lambda other: catenary.write_run(RUN, other), "write_run.folder", ["text"]),
+    (lambda other: catenary.write_run(RUN, "runs", other), "write_run.found", ["none"]),
+    (lambda other: catenary.write_validation(RUN, other, "v"), "write_validation.reference", []),
+    (lambda o: catenary.write_validation(RUN, _reference(), o), "write_validation.folder", ["text"]),
+    (lambda other: catenary.rows(RUN, other), "rows.reference", ["text"]),
+    (lambda other: _reference().at(other), "reference.speed_kmh", ["number"]),
+    (lambda other: found().save_schedule(other), "save_schedule.path", ["text"]),
+    (lambda other: found().plot(size=other), "plot.size", []),
+    (lambda other: elastic().save(other), "elasticity.save.path", ["text"]),
+    (lambda other: catenary.dropper_errors(other, 1e-3, 1), "dropper_errors.found", []),
+    (lambda o: catenary.height_errors(o, np.ones_like, (5.0, 50.0), 1), "height_errors.line", ["line"]),
+    (lambda o: catenary.height_errors(short_line(), o, (5.0, 50.0), 1), "height_errors.spectrum", []),
+    (lambda o: catenary.random_underside(o, np.ones_like, (5.0, 50.0), 1), "underside.line", ["line"]),
+    (lambda o: catenary.random_underside(short_line(), o, (5.0, 50.0), 1), "underside.spectrum", []),
+    (lambda other: catenary.read_pantograph(other), "read_pantograph.path", ["text"]),
+    (lambda other: catenary.read_measuring_head(other), "read_measuring_head.path", ["text"]),
+    (lambda other: catenary.read_underside(other), "read_underside.path", ["text"]),
+    (lambda other: catenary.read_run(other), "read_run.folder", ["text"]),
+    (lambda other: catenary.read_line("en50318-2002", other), "read_line.values", ["none"]),
+    (lambda other: catenary.identify_pantograph(other, [1.0, 2.0]), "identify_pantograph.", []),
+    (lambda other: catenary.identify_pantograph([1.0, 2.0], other), "identify_pantograph.", []),
+    (lambda other: catenary.add_pantograph(other, collector(), 50.0, start=20.0), ".overhead", []),
+    (lambda other: _added(raised=other), "add_pantograph.raised", ["number"]),
+    (lambda other: _added(height=other), "add_pantograph.height", ["number", "none"]),
+    (lambda other: _added(active=other), "add_pantograph.active", []),
+    (lambda other: catenary.assemble(found()).contacts_at(other), "contacts_at.track", ["number"]),
+    (lambda other: catenary.assemble(found()).track_x(other), "track_x.point", []),
+    (lambda other: catenary.Route(lines=other, starts=(0.0,)), "route.lines", []),
+    (lambda other: catenary.Route(lines=(short_line(),), starts=other), "route.starts", ["list"]),
+    (lambda other: collector(masses=other), "pantograph.test.masses", ["list"]),
+    (lambda other: collector(stops=other), "pantograph.test.stops", []),
+    (lambda other: collector(tags=other), "pantograph.test.tags", ["none"]),
+    (lambda other: _wire(lift=other), "wire.lift", ["none"]),
+    (lambda o: short_line(stitch=catenary.StitchWire(wire=o, reach=5.0)), "line.stitch.wire", []),
+    (lambda other: short_line(auxiliary=_auxiliary(wire=other)), "line.auxiliary.wire", []),
+    (lambda other: short_line(auxiliary=_auxiliary(droppers=other)), "line.auxiliary.droppers", []),
+    (lambda other: short_line(auxiliary=_auxiliary(places=other)), "line.auxiliary.places", ["none"]),
+]
+
+
+@pytest.mark.parametrize(
+    ("ask", "where", "kind"),
+    [(ask, where, kind) for ask, where, taken in ASKED for kind in KINDS if kind not in taken],
+)
+def test_another_kind_is_named(ask, where, kind, tmp_path, monkeypatch):
+    """They ended with an error from inside: AttributeError, TypeError, IndexError."""
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(ModelError) as error:
+        ask(KINDS[kind])
+    assert where in error.value.where
+
+
+@cache
+def elastic():
+    return catenary.elasticity(found(), points=2)
+
+
+def _added(**options):
+    return catenary.add_pantograph(catenary.assemble(found()), collector(), 50.0, start=20.0, **options)
+
+
+def _wire(**changes):
+    return catenary.Wire(**({"EA": 1e7, "EI": 100.0, "mass": 1.0, "tension": 5e3} | changes))
+
+
+def _auxiliary(**changes):
+    given = {"wire": _wire(), "height": 0.5, "droppers": catenary.Droppers(stiffness=1e5)}
+    return catenary.Auxiliary(**(given | changes))
 
 
 @pytest.mark.parametrize("track", [-5.0, 169.0, 1e6, float("nan"), "50"])

@@ -18,11 +18,17 @@ from . import passing
 from .clamp_strain import ALLOWED, clamp_strains, strain_below_strip, strained
 from .quantity import Quantity, shown
 from .signals import at_zero, sample_rate
-from .statistics import LARGEST_DEVIATION, LARGEST_SPEED_RATIO, MEAN_FORCE_LAW, mean_force_target, statistics
+from .statistics import (
+    LARGEST_DEVIATION,
+    LARGEST_SPEED_RATIO,
+    MEAN_FORCE_LAW,
+    Statistics,
+    mean_force_target,
+    statistics,
+)
 
 if TYPE_CHECKING:
     from .run_data import Run
-    from .statistics import Statistics
 
 KMH, MM = 3.6, 1e3
 #: Speed up to which the slower of two rules holds, this one included, km/h.
@@ -68,7 +74,10 @@ def acceptance(
     """
     passing.check_run(run, "acceptance", pantograph)
     checks.choice(supply, "acceptance.supply", tuple(MEAN_FORCE_LAW))
-    numbers = statistics(run, pantograph) if found is None else found
+    if found is None:
+        numbers = statistics(run, pantograph)
+    else:
+        numbers = checks.kind(found, "acceptance.found", Statistics, "leave it out, it is computed")
     return [
         *_forces(run, pantograph, supply, numbers),
         _arcing(run, pantograph, supply, numbers),

@@ -12,6 +12,7 @@ import numpy as np
 from ..arrays import FloatArray
 from ..errors import ModelError
 from ..files import writing
+from ..model import checks
 from .fittings import FAINT, hangs
 
 #: Share of the forces by the closed form that droppers and bends may change: less is not judged by it.
@@ -54,7 +55,16 @@ def arm_loads(found: Any) -> list[ArmLoad]:
     """Loads of the steady arms of a Form, or of a RouteForm section after section.
 
     Of twin contact wires those of the first one.
+
+    Raises
+    ------
+    ModelError
+        It is no form.
+
     """
+    if not hasattr(found, "shifted"):
+        what = f"must be a Form, is {checks.shown(found)}"
+        raise ModelError("arm_loads.found", what, "ancf.catenary.form finds it, a run has run.form")
     made: list[ArmLoad] = []
     for form in found.shifted:
         line, x = form.line, form.contact.position[form.contact.nodes.support, 0]

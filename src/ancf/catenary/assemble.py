@@ -25,6 +25,8 @@ from .shape import Strung, on_track
 
 #: More than any count.
 FAR = 10**9
+#: What makes the model of a line.
+MADE = "ancf.catenary.assemble(form) makes one"
 
 
 @dataclass(slots=True)
@@ -129,6 +131,7 @@ class Assembled:
 
     def contacts_at(self, track: float) -> list[Point]:
         """The same of both of twin contact wires; of one wire its point alone."""
+        track = on_track(track, [part.contact for part in self.parts or [self]], "contacts_at")
         part = self._part(track)
         wires = [wire for wire in (part.contact, part.twin) if wire is not None]
         return [wire.at(wire.arc_at(track)) for wire in wires]
@@ -143,7 +146,7 @@ class Assembled:
 
     def track_x(self, point: Point) -> float:
         """Track position of a point at rest, m."""
-        return float(point.initial_position[0])
+        return float(checks.kind(point, "overhead.track_x.point", Point).initial_position[0])
 
     def dropper(self, span: int, number: int) -> Spring | None:
         """A dropper, both counted from 1 as in the dropper schedule; None if it is broken."""

@@ -10,7 +10,7 @@ from ..errors import ModelError
 from ..model import checks
 from .fittings import Droppers
 from .span import DropperRule
-from .wire import Wire
+from .wire import WIRE, Wire
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -39,9 +39,12 @@ class Auxiliary:
 
     def check(self, where: str) -> None:
         """Raise ModelError if a value is out of range."""
-        self.wire.check(where)
+        checks.kind(self.wire, f"{where}.wire", Wire, WIRE).check(where)
         checks.positive(self.height, f"{where}.height")
-        self.droppers.check(f"{where}.droppers")
+        droppers = checks.kind(self.droppers, f"{where}.droppers", Droppers, "catenary.Droppers(EA=1e5)")
+        droppers.check(f"{where}.droppers")
+        if self.places is not None:
+            checks.kind(self.places, f"{where}.places", DropperRule, "first and pitch_max")
 
     def check_in(self, line: Any) -> None:
         """Raise ModelError if it does not fit a Line."""

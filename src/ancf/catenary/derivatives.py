@@ -19,9 +19,10 @@ from ..system.beside import BODIES, SPRINGS, Acts
 from .assemble import Assembled
 from .broken import place_of
 from .form import Form
+from .passing import check_run as check_run_of
 from .passing import in_window, uplift_in_window
 from .run_data import RunSlopes
-from .signals import BANDS, Butterworth, sample_rate
+from .signals import BANDS, Butterworth, filter_of, sample_rate
 
 if TYPE_CHECKING:
     from .plan import Plan
@@ -198,7 +199,10 @@ class Linearised:
     """
 
     def __init__(self, run: Run, pantograph: int = 0, filter: Butterworth | None = None) -> None:
-        chosen = Butterworth() if filter is None else filter
+        pantograph = check_run_of(run, "slopes", pantograph)
+        if not hasattr(run, "slopes"):
+            raise ModelError("slopes.run", "has no sensitivities", "run(..., sensitivities={...})")
+        chosen = filter_of(filter, "slopes")
         rate, window = sample_rate(run.t), in_window(run, pantograph)
         self.names = list(run.slopes)
         histories = [run.recordings[pantograph].force]

@@ -69,7 +69,7 @@ class Elasticity(Told):
 
     def save(self, path: str | Path) -> Path:
         """Write a CSV file, one row for each place."""
-        target = Path(path)
+        target = checks.path(path, "elasticity.save.path")
         with writing(target), target.open("w", newline="", encoding="utf-8") as file:
             writer = csv.writer(file)
             writer.writerow(["x_m", *(f"elasticity_{f:g}N_mm_per_N" for f in self.force)])

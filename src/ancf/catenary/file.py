@@ -71,7 +71,12 @@ def read_file(path: str | Path, values: Mapping[str, Any] | None = None) -> Line
         The file cannot be read, is no TOML, or describes no valid line; all problems in one error.
 
     """
-    data = read_toml(Path(path), "line file")
+    path = checks.path(path, "read_line.path")
+    given: object = values
+    if given is not None and not isinstance(given, Mapping):
+        what = f"must be a mapping, is {checks.shown(values)}"
+        raise ModelError("read_line.values", what, '{"contact_wire.tension": 20e3}')
+    data = read_toml(path, "line file")
     refuse(path, data, LINE)
     return parse_track(other_values(data, values or {}), str(path))
 

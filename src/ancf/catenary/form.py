@@ -10,6 +10,7 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..errors import ModelError, SolveError
+from ..model import checks
 from .arm_loads import check_arms, check_roughly, sides
 from .auxiliary import LongDroppers
 from .conditions import expansion
@@ -224,7 +225,7 @@ class Form(Pictured):
 
     def save_schedule(self, path: str | Path) -> Path:
         """Write the dropper schedule as CSV, lengths in mm."""
-        return write(self.schedule(), Path(path))
+        return write(self.schedule(), checks.path(path, "save_schedule.path"))
 
 
 def design(line: Line, mesh: Mesh | None = None) -> Form:

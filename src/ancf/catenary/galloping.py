@@ -132,6 +132,14 @@ def has_lift(line: Any) -> bool:
     )
 
 
+def _track(line: Any) -> Any:
+    """The line; ModelError for what is none."""
+    if not hasattr(line, "parts") or not hasattr(line, "spans"):
+        what = f"must be a Line or a Route, is {checks.shown(line)}"
+        raise ModelError("galloping.line", what, "catenary.read_line reads one, a form has form.line")
+    return line
+
+
 def _wires(part: Any) -> dict[str, Any]:
     """The wires on which the lift of wind acts, by what they are called."""
     auxiliary = getattr(part, "auxiliary", None)
@@ -194,7 +202,7 @@ def galloping(line: Any) -> list[Galloping]:
         No wire has a table of lift.
 
     """
-    part = line.parts[0]
+    part = _track(line).parts[0]
     air, span = part.conditions, max(span.length for span in part.spans)
     found = []
     for name, wire in _wires(part).items():

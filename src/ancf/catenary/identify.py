@@ -231,10 +231,19 @@ def _cautions(found: Identified, frequency: Any, response: Any, kind: str) -> It
         yield text + "they follow noise, or the kind or the unit of the response is another one"
 
 
+def _numbers(given: Any, key: str, kind: Any) -> Any:
+    try:
+        return np.asarray(given, dtype=kind)
+    except (TypeError, ValueError, OverflowError):
+        what = f"must be a list of numbers, is {checks.shown(given)}"
+        raise ModelError(f"{WHERE}.{key}", what) from None
+
+
 def _checked(frequency: Any, response: Any, kind: str) -> tuple[FloatArray, npt.NDArray[np.complex128]]:
     """Frequencies in ascending order and the dynamic stiffness there."""
     checks.choice(kind, f"{WHERE}.kind", tuple(KINDS))
-    f, given = np.asarray(frequency, dtype=np.float64), np.asarray(response, dtype=np.complex128)
+    f = _numbers(frequency, "frequency", np.float64)
+    given = _numbers(response, "response", np.complex128)
     if f.shape == given.shape == (1,):
         raise ModelError(
             f"{WHERE}.response", "has one frequency", "a chain needs two or more, some tens say more"

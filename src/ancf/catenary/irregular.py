@@ -43,6 +43,9 @@ def dropper_errors(found: Form, deviation: float, seed: int) -> Line:
         A number is wrong, or an error is as long as its dropper.
 
     """
+    if not hasattr(found, "cut_length") or hasattr(found, "forms"):
+        what = f"must be the Form of one tension length, is {checks.shown(found)}"
+        raise ModelError("dropper_errors.found", what, "ancf.catenary.form finds it, a route has form.forms")
     errors = DropperErrors(deviation=deviation, seed=seed)
     errors.check("dropper_errors")
     return replace(found.line, dropper_lengths=tuple(with_errors(found, errors).tolist()))
@@ -89,6 +92,9 @@ def height_errors(
         A number is wrong, or the spectrum has values that are no finite numbers >= 0.
 
     """
+    if not hasattr(line, "dropper_x") or not hasattr(line, "contact_wires"):
+        what = f"must be a Line, is {checks.shown(line)}"
+        raise ModelError("height_errors.line", what, "ancf.catenary.read_line reads one")
     places = line.dropper_x[:: line.contact_wires]
     error = random_waves(spectrum, wavelengths, seed, places, "height_errors")
     first = 0
@@ -119,6 +125,7 @@ def random_waves(
     if not 0.0 < shortest < longest:
         what = f"are {shortest:g} to {longest:g} m, must be 0 < shortest < longest"
         raise ModelError(f"{where}.wavelengths", what)
+    checks.function(spectrum, f"{where}.spectrum", "spatial frequencies (n,) in 1/m")
     random = np.random.default_rng(checks.integer(seed, f"{where}.seed", 0, MOST_SEED))
     edges = np.linspace(1.0 / longest, 1.0 / shortest, WAVES + 1)
     frequency = 0.5 * (edges[1:] + edges[:-1])

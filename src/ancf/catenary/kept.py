@@ -11,6 +11,7 @@ from typing import Any
 from ..arrays import FloatArray
 from ..columns import read_columns
 from ..errors import ModelError
+from ..model import checks
 from .broken import told
 from .quantity import Quantity
 from .state import pulled
@@ -98,9 +99,9 @@ def read_run(folder: str | Path, name: str | None = None) -> list[Kept]:
         There is none, or a file of it is damaged.
 
     """
-    path = Path(folder)
+    path = checks.path(folder, "read_run.folder")
     data = _summary(path)
-    title = name or path.name
+    title = path.name if name is None else checks.text(name, "read_run.name") or path.name
     try:
         several = len(data["pantographs"]) > 1
         return [

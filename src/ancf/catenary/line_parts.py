@@ -49,7 +49,7 @@ def check_kinds(line: Any) -> None:
     for key in ("spans", "loads"):
         given = getattr(line, key)
         if isinstance(given, Iterable) and not isinstance(given, str | Mapping):
-            object.__setattr__(line, key, tuple(given))
+            object.__setattr__(line, key, checks.items(given, f"line.{key}"))
     for key, kind in LISTS.items():
         values = getattr(line, key)
         if key == "steady_arm" and isinstance(values, SteadyArm):

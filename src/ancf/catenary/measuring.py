@@ -11,7 +11,7 @@ from ..arrays import FloatArray
 from ..errors import ModelError
 from ..model import checks
 from .passing import check_run, in_window
-from .signals import CUT_OFF, Butterworth, sample_rate
+from .signals import CUT_OFF, Butterworth, filter_of, sample_rate
 
 if TYPE_CHECKING:
     from .run_data import Run
@@ -158,7 +158,7 @@ def measure(
     if given is not None and not isinstance(given, MeasuringHead):
         what = f"must be a MeasuringHead, is {checks.shown(head)}"
         raise ModelError("measure.head", what, "ancf.catenary.MeasuringHead(force_noise=2.0)")
-    sensors, chosen = head or MeasuringHead(), filter or Butterworth()
+    sensors, chosen = head or MeasuringHead(), filter_of(filter, "measure")
     recording, unit, rate = run.recordings[pantograph], run.pantographs[pantograph], sample_rate(run.t)
     mass = unit.masses[-1] if sensors.mass is None else sensors.mass
     corrected = mass if sensors.corrected_mass is None else sensors.corrected_mass

@@ -9,6 +9,7 @@ import numpy as np
 from pydantic import Field, ValidationError
 
 from ..errors import ModelError
+from ..model import checks
 from ..model.file import parameters, read_toml
 from ..model.file.fields import Entry, NonNegative, Parameters, Positive
 from ..model.file.kinds import HEAD, refuse
@@ -45,7 +46,8 @@ def read_measuring_head(path: str | Path) -> MeasuringHead:
         The file cannot be read, or something in it is wrong.
 
     """
-    data = read_toml(Path(path), "file of a measuring pantograph")
+    path = checks.path(path, "read_measuring_head.path")
+    data = read_toml(path, "file of a measuring pantograph")
     refuse(path, data, HEAD)
     try:
         parameters.refuse_keys(data, MeasuringEntry.model_fields)

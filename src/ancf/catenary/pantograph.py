@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from importlib.resources import files
 from pathlib import Path
@@ -111,7 +111,8 @@ class Pantograph:
     def __post_init__(self) -> None:
         where = f"pantograph.{self.name}"
         for key, check in CHECKS.items():
-            values = tuple(check(x, f"{where}.{key}[{k}]") for k, x in enumerate(getattr(self, key)))
+            given = checks.items(getattr(self, key), f"{where}.{key}", "one for each mass, the lowest first")
+            values = tuple(check(x, f"{where}.{key}[{k}]") for k, x in enumerate(given))
             object.__setattr__(self, key, values)
         for key in ("stiffness", "damping", *(name for name in ("friction", "stops") if getattr(self, name))):
             if len(getattr(self, key)) != len(self.masses) or not self.masses:
@@ -129,6 +130,8 @@ class Pantograph:
         length = checks.positive(self.strip_length, f"{where}.strip_length")
         _meant(length, f"{where}.strip_length", STRIPS, "m")
         checks.choice(self.relaxed_at, f"{where}.relaxed_at", RELAXED)
+        if self.tags is not None and not isinstance(self.tags, Mapping):
+            raise ModelError(f"{where}.tags", f"must be a mapping, is {checks.shown(self.tags)}")
         object.__setattr__(self, "tags", dict(self.tags or {}))
 
     def _check_aerodynamic(self, where: str) -> None:
@@ -218,7 +221,8 @@ def read_pantograph(path: str | Path) -> Pantograph:
     """
     from .entries import PantographEntry
 
-    data = read_toml(Path(path), "pantograph file")
+    path = checks.path(path, "read_pantograph.path")
+    data = read_toml(path, "pantograph file")
     refuse(path, data, PANTOGRAPH)
     try:
         parameters.refuse_keys(data, PantographEntry.model_fields)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from ..model import checks
 from .reach import STRIP
 from .told import Told
 
@@ -38,7 +39,8 @@ class Pictured(Told):
         from ..viz.pictures.picture import Picture
         from .drawn import draw_form
 
+        width, height = checks.array(size, "plot.size", (2,)).tolist()
         style.require_matplotlib()
-        with style.new_figure(*size) as figure:
+        with style.new_figure(width, height) as figure:
             draw_form(self, figure, 2.0 * STRIP)
         return Picture(figure)

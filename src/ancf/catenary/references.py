@@ -9,6 +9,7 @@ from importlib.resources import files
 from typing import TYPE_CHECKING, Any
 
 from ..errors import ModelError
+from ..model import checks
 from ..model.checks import listed, nearest
 from .signals import Butterworth
 from .statistics import Statistics, statistics
@@ -21,6 +22,8 @@ if TYPE_CHECKING:
 SAME_SPEED = 1e-3
 #: The filter with which verdicts are read a second time: the standards name the cut-off and no order.
 SECOND_FILTER = Butterworth(4)
+#: What finds a reference.
+REFERENCE = "ancf.catenary.reference_case(name) finds one"
 
 
 @dataclass(frozen=True)
@@ -72,7 +75,8 @@ class Reference:
 
     def at(self, speed_kmh: float) -> dict[str, Range]:
         """Ranges at a speed; empty when the reference has none there. Nothing is interpolated."""
-        same = [v for v in self.ranges if abs(v - speed_kmh) <= SAME_SPEED]
+        speed = checks.number(speed_kmh, "reference.speed_kmh")
+        same = [v for v in self.ranges if abs(v - speed) <= SAME_SPEED]
         return self.ranges[same[0]] if same else {}
 
     def note(self, speed_kmh: float) -> str:
@@ -112,7 +116,10 @@ def rows(run: Run, reference: Reference | str, pantograph: int = 0) -> list[dict
         ``quantity, unit, value, low, high, inside, tag``; at a speed without ranges the last four are None.
 
     """
-    chosen = reference_case(reference) if isinstance(reference, str) else reference
+    given: object = reference
+    if isinstance(given, str):
+        given = reference_case(given)
+    chosen = checks.kind(given, "rows.reference", Reference, REFERENCE)
     found = statistics(run, pantograph)
     return [quantity.row for quantity in chosen.compare(found, run.speed_kmh)]
 

@@ -54,8 +54,12 @@ class Route:
     tags: Mapping[str, str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "lines", tuple(self.lines))
-        starts = checks.array(list(self.starts), "route.starts", (len(self.lines),)).tolist()
+        lines = checks.items(self.lines, "route.lines", "of Line, one for each tension length")
+        object.__setattr__(
+            self, "lines", tuple(checks.kind(one, f"route.lines[{k}]", Line) for k, one in enumerate(lines))
+        )
+        given = list(checks.items(self.starts, "route.starts", "m, one for each line"))
+        starts = checks.array(given, "route.starts", (len(self.lines),)).tolist()
         object.__setattr__(self, "starts", tuple(starts))
         if not self.lines:
             raise ModelError("route.lines", "has no line")

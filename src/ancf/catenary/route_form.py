@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from ..arrays import FloatArray
+from ..model import checks
 from .form import Form
 from .mesh import Mesh
 from .pictured import Pictured
@@ -141,7 +142,7 @@ class RouteForm(Pictured):
 
     def save_schedule(self, path: str | Path) -> Path:
         """Write the dropper schedule as CSV, lengths in mm."""
-        return write(self.schedule(), Path(path))
+        return write(self.schedule(), checks.path(path, "save_schedule.path"))
 
 
 def _shifted(form: Form, x: float) -> Form:

@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from ..arrays import FloatArray
 from ..errors import ModelError
+from ..model import checks
 
 Kind = Literal["lowpass", "highpass"]
 
@@ -96,6 +97,13 @@ class Butterworth:
             return np.asarray(signal.sosfiltfilt(sections, x, padlen=margin), dtype=np.float64)
         state = signal.sosfilt_zi(sections) * x[0]
         return np.asarray(signal.sosfilt(sections, x, zi=state)[0], dtype=np.float64)
+
+
+def filter_of(given: Butterworth | None, where: str) -> Butterworth:
+    """The filter that was given, or order 6, forward and backward; ModelError where it is none."""
+    if given is None:
+        return Butterworth()
+    return checks.kind(given, f"{where}.filter", Butterworth, "ancf.catenary.Butterworth(order=4)")
 
 
 @dataclass(frozen=True)

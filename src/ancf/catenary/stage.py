@@ -126,7 +126,7 @@ def damper_of(given: Any, where: str) -> float | Rows:
 
 def stops_of(given: Any, where: str) -> tuple[float, float] | None:
     """Two elongations, or None for no stops."""
-    if given is None or len(given) == 0:
+    if given is None or (isinstance(given, Sequence) and len(given) == 0):
         return None
     low, high = checks.array(given, where, (2,)).tolist()
     if not low < high:

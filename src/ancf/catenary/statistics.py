@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..arrays import FloatArray
-from ..errors import ModelError, UnknownNameError
+from ..errors import UnknownNameError
 from ..model import checks
 from . import passing
 from .quantity import Quantity
-from .signals import BANDS, CUT_OFF, Butterworth, at_zero, sample_rate
+from .signals import BANDS, CUT_OFF, Butterworth, at_zero, filter_of, sample_rate
 from .told import Told
 
 if TYPE_CHECKING:
@@ -101,11 +101,7 @@ def statistics(run: Run, pantograph: int = 0, filter: Butterworth | None = None)
 
     """
     pantograph = passing.check_run(run, "statistics", pantograph)
-    given: object = filter
-    if given is not None and not isinstance(given, Butterworth):
-        what = f"must be a Butterworth, is {checks.shown(filter)}"
-        raise ModelError("statistics.filter", what, "ancf.catenary.Butterworth(order=4)")
-    chosen = Butterworth() if filter is None else filter
+    chosen = filter_of(filter, "statistics")
     recording, rate = run.recordings[pantograph], sample_rate(run.t)
     window = passing.in_window(run, pantograph)
     force = chosen.low_pass(recording.force, rate)

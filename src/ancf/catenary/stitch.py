@@ -7,7 +7,7 @@ from typing import Any
 
 from ..errors import ModelError
 from ..model import checks
-from .wire import Wire
+from .wire import WIRE, Wire
 
 #: Of the ends of a stitch wire from its support, m; less is a slip of units.
 SHORTEST = 0.1
@@ -33,7 +33,7 @@ class StitchWire:
 
     def check(self, where: str) -> None:
         """Raise ModelError if a value is out of range."""
-        self.wire.check(where)
+        checks.kind(self.wire, f"{where}.wire", Wire, WIRE).check(where)
         if checks.positive(self.reach, f"{where}.reach") < SHORTEST:
             what = f"is {self.reach:g} m, at least {SHORTEST:g} m"
             raise ModelError(f"{where}.reach", what, "units are m: 9.0")

@@ -8,7 +8,7 @@ from typing import Any
 import ancf
 
 from ..model import checks
-from .assemble import Assembled
+from .assemble import MADE, Assembled
 from .chain import Level
 from .collectors import Collector, Touch, put_pantograph
 from .line import Line
@@ -72,12 +72,15 @@ def add_pantograph(
 
     """
     unit, travel = find_pantograph(pantograph), make_travel(speed, "add_pantograph.speed")
-    line = overhead.form.line
+    line = checks.kind(overhead, "add_pantograph.overhead", Assembled, MADE, "Overhead").form.line
     place = checks.between(start, "add_pantograph.start", line.begin, line.end)
     touch = Touch(contact, contact_stiffness, contact_damping)
+    checks.number(raised, "add_pantograph.raised")
+    checks.flag(active, "add_pantograph.active")
     lift = float(unit.force(travel.speed(0.0)))
     if height is None:
         height = lifted_heights(overhead, [place], [lift])[0] + touch.overlap(lift)
+    checks.number(height, "add_pantograph.height")
     return put_pantograph(
         overhead.model,
         overhead.contact_wires,

@@ -55,6 +55,9 @@ def random_underside(
         A number is wrong, or the spectrum has values that are no finite numbers >= 0.
 
     """
+    if not hasattr(line, "begin") or not hasattr(line, "parts"):
+        what = f"must be a Line or a Route, is {checks.shown(line)}"
+        raise ModelError("random_underside.line", what, "ancf.catenary.read_line reads one")
     shortest = float(checks.array(wavelengths, "random_underside.wavelengths", (2,))[0])
     count = int(min(ROWS * line.length / max(shortest, 1e-9), 2.0 * MOST_ROWS)) + 2
     if count > MOST_ROWS:
@@ -73,7 +76,7 @@ def read_underside(path: str | Path) -> FloatArray:
         The file cannot be read, a column is missing or a cell is no number.
 
     """
-    rows = read_table(Path(path), COLUMNS, COLUMNS)
+    rows = read_table(checks.path(path, "read_underside.path"), COLUMNS, COLUMNS)
     x, height = (np.array([row[key] for row in rows], dtype=np.float64) for key in COLUMNS)
     late = np.flatnonzero(np.diff(x) <= 0.0)
     if late.size:

@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 from .._version import __version__
 from ..errors import ModelError
+from ..model import checks
 from ..model.checks import positive
 from .elasticity import elasticity_beside
-from .references import SECOND_FILTER, Reference, filter_note, reference_case, second_reading
+from .references import REFERENCE, SECOND_FILTER, Reference, filter_note, reference_case, second_reading
 from .statistics import Statistics, statistics
 from .write import summary, write_json, write_run
 
@@ -117,7 +118,8 @@ def write_validation(run: Run, reference: Reference, folder: str | Path, report:
         The files written.
 
     """
-    folder, found = Path(folder), statistics(run)
+    checks.kind(reference, "write_validation.reference", Reference, REFERENCE)
+    folder, found = checks.path(folder, "write_validation.folder"), statistics(run)
     files = [write_json(validation(run, reference, found), folder / "validate.json")]
     files += write_run(run, folder, [found])
     if report:

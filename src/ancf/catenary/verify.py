@@ -10,8 +10,9 @@ import ancf
 
 from ..arrays import FloatArray
 from ..errors import ModelError
+from ..model import checks
 from ..model.points import Point
-from .assemble import Assembled
+from .assemble import MADE, Assembled
 from .route_form import RouteForm
 from .shape import Strung
 
@@ -41,8 +42,15 @@ class Verified:
 
 
 def verify(overhead: Assembled) -> Verified:
-    """Bring a line to rest and compare; no dropper may be broken."""
-    found = overhead.form
+    """Bring a line to rest and compare; no dropper may be broken.
+
+    Raises
+    ------
+    ModelError
+        It is no model of a line, or that of a route.
+
+    """
+    found = checks.kind(overhead, "verify.overhead", Assembled, MADE, "Overhead").form
     if isinstance(found, RouteForm):
         raise ModelError("verify", "is for one tension length", "verify the form of each")
     every = (*overhead.wires, *overhead.stitches)

@@ -18,6 +18,8 @@ LEAST_TENSION = 100.0
 #: Beyond these what is meant is in other units: strain under the tension, reach of a bend sqrt(EI/T) in m,
 #: drag coefficient of some wires side by side, thermal expansion in 1/K.
 LEAST_STRAIN, WIDEST_BEND, MOST_DRAG, MOST_EXPANSION = 2e-6, 10.0, 100.0, 1e-3
+#: What makes a wire.
+WIRE = "ancf.catenary.Wire(EA=..., EI=..., mass=..., tension=...)"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -87,7 +89,9 @@ class Wire:
     def __post_init__(self) -> None:
         """Keep rows as they can be compared."""
         if self.lift is not None and not isinstance(self.lift, tuple):
-            object.__setattr__(self, "lift", tuple(tuple(row) for row in self.lift))
+            rows = checks.items(self.lift, "wire.lift", "rows of an angle and a lift coefficient")
+            made = tuple(checks.items(row, f"wire.lift[{k}]") for k, row in enumerate(rows))
+            object.__setattr__(self, "lift", made)
 
     @property
     def wave_speed(self) -> float:

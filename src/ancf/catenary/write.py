@@ -11,7 +11,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .._version import __version__
+from ..errors import ModelError
 from ..files import cell, to_json, write_text
+from ..model import checks
 from .acceptance import acceptance
 from .clamp_strain import bends, clamp_strains
 from .cycles import rainflow
@@ -52,8 +54,8 @@ def write_run(run: Run, folder: str | Path, found: Sequence[Statistics] | None =
 
     """
     check_run(run, "write_run")
-    chosen = [statistics(run, k) for k in range(len(run.recordings))] if found is None else found
-    folder = Path(folder)
+    folder = checks.path(folder, "write_run.folder")
+    chosen = [statistics(run, k) for k in range(len(run.recordings))] if found is None else _given(found, run)
     files = [write_statistics(chosen, folder / "statistics.csv")]
     files.append(write_json(summary(run, chosen), folder / "statistics.json"))
     for k in range(len(run.recordings)):
@@ -62,6 +64,17 @@ def write_run(run: Run, folder: str | Path, found: Sequence[Statistics] | None =
     files.append(write_droppers(run, folder / "droppers.csv"))
     files.append(write_cycles(run, folder / "cycles.csv"))
     return files
+
+
+def _given(found: Any, run: Run) -> tuple[Statistics, ...]:
+    """Statistics that were given; ModelError where they are none, or not one for each pantograph."""
+    hint = "one for each pantograph; or leave it out, they are computed"
+    chosen = checks.items(found, "write_run.found", hint)
+    for k, one in enumerate(chosen):
+        checks.kind(one, f"write_run.found[{k}]", Statistics, hint)
+    if len(chosen) != len(run.recordings):
+        raise ModelError("write_run.found", f"are {len(chosen)} for {len(run.recordings)} pantographs", hint)
+    return chosen
 
 
 def summary(run: Run, found: Sequence[Statistics]) -> dict[str, Any]:

@@ -174,11 +174,12 @@ class Stepper(Live):
         ModelError
             It cannot be written.
         """
+        path = checks.path(file, "save.file")
         if self._ahead is not None:
             self._ahead.hand_over()
         header = {**self._made.header, "settings": {**self._made.header["settings"], "t_end": self.t}}
-        with writing(file):
-            store = FileStore(file, self.system, header, self._history())
+        with writing(path):
+            store = FileStore(path, self.system, header, self._history())
         rows = 0
         if self.system.sensors:
             samples = self._store.samples

@@ -70,7 +70,7 @@ class FmuController:
         parameters: Mapping[str, float] | None = None,
         restart: bool = False,
     ) -> None:
-        self.path, self.step = Path(path), checks.positive(step, f"{WHERE}.step")
+        self.path, self.step = checks.path(path, f"{WHERE}.path"), checks.positive(step, f"{WHERE}.step")
         self.restart = checks.flag(restart, f"{WHERE}.restart")
         self.folder = tempfile.mkdtemp(prefix="ancf-")
         self._end = weakref.finalize(self, shutil.rmtree, self.folder, True)

@@ -102,7 +102,8 @@ def calibrate(
 
     bounds = bounds_of(parameters)
     known = priors_of(priors, bounds)
-    begun = start_of({name: mean for name, (mean, _) in known.items()} | dict(start or {}), bounds)
+    given = checks.mapping(start, "calibrate.start", "a number for each parameter")
+    begun = start_of({name: mean for name, (mean, _) in known.items()} | given, bounds)
     columns = columns_of(data)
     times = columns.pop(TIME)
     problem = Problem(build, bounds, times, columns, _settings(times, step, begin, integrator), known)

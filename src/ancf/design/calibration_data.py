@@ -47,7 +47,7 @@ def start_of(
     start: Mapping[str, float] | None, bounds: dict[str, tuple[float, float]], where: str = "calibrate"
 ) -> dict[str, float]:
     """Where to begin: what is given, else the middle of the bounds or of their logarithms."""
-    given = dict(start or {})
+    given = checks.mapping(start, f"{where}.start", "a number for each parameter")
     for name in given:
         if name not in bounds:
             raise ModelError(f"{where}.start: {name}", "is no parameter", checks.nearest(name, bounds))

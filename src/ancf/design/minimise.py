@@ -117,11 +117,15 @@ def minimise(
     """
     from scipy import optimize
 
+    checks.text(objective, f"{WHERE}.objective")
+    if begin is not None:
+        checks.function(begin, f"{WHERE}.begin", "a model that finds a state, such as ancf.equilibrium")
     bounds = bounds_of(parameters, WHERE)
     if t_end is None or step is None:
         check_still(t_end, step, integrator, WHERE)
     problem = _Problem(model, bounds, {"t_end": t_end, "step": step, "integrator": integrator}, begin)
-    limits = [] if constraints is None else [_limit(problem, *item) for item in constraints.items()]
+    kept = checks.mapping(constraints, f"{WHERE}.constraints", "bounds (low, high) of formulas")
+    limits = [_limit(problem, *item) for item in kept.items()]
     search: Any = optimize.minimize
     found = search(
         lambda u: problem.at(objective, u),
@@ -138,7 +142,7 @@ def minimise(
         values=problem.values(found.x),
         objective=float(value),
         slope=dict(zip(bounds, (slope / scale).tolist(), strict=True)),
-        constraints={text: float(problem.at(text, found.x)[0]) for text in constraints or ()},
+        constraints={text: float(problem.at(text, found.x)[0]) for text in kept},
         gradients=problem.gradients,
         converged=bool(found.success),
         message=str(found.message),

@@ -73,7 +73,7 @@ def sample(
         raise ModelError("sample.parameters", "must be a distribution or a list of values by name")
     kinds = {str(name): distribution_of(kind, f"sample.{name}") for name, kind in parameters.items()}
     seed = checks.integer(seed, "sample.seed", 0, 2**63 - 1)
-    pairs = dict(correlations or {})
+    pairs = checks.mapping(correlations, "sample.correlations", '{("EA", "EI"): 0.5}')
     design: dict[str, Any] = {
         "method": method,
         "parameters": {name: kind.describe() for name, kind in kinds.items()},

@@ -134,7 +134,7 @@ def study(
     rows = rows_of(samples)
     check_arguments(function, rows[0])
     content = packed(function)
-    place = None if folder is None else writable(Path(folder), f"folder {folder}")
+    place = None if folder is None else writable(checks.path(folder, "study.folder"), f"folder {folder}")
     if place is not None:
         spare_inputs(place, FILES)
     with locked(place, f"folder {folder}"):

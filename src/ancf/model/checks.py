@@ -4,13 +4,17 @@ from __future__ import annotations
 
 import difflib
 import math
-from collections.abc import Iterable, Sequence
-from typing import Any
+import os
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import Any, TypeVar
 
 import numpy as np
 
 from ..arrays import FloatArray
 from ..errors import ModelError
+
+T = TypeVar("T")
 
 UNIT = 8 * float(np.finfo(np.float64).eps)  # deviation of a square from 1 that is round-off
 ALL = 100  # choices that a message lists
@@ -99,6 +103,43 @@ def text(value: object, where: str) -> str:
     return value
 
 
+def kind(value: object, where: str, wanted: type[T], hint: str = "", name: str = "") -> T:
+    """An object of a class, which the message calls by its name, or by another one."""
+    if isinstance(value, wanted):
+        return value
+    name = name or wanted.__name__
+    article = "an" if name[0] in "AEIO" else "a"
+    raise ModelError(where, f"must be {article} {name}, is {shown(value)}", hint)
+
+
+def items(value: object, where: str, hint: str = "") -> tuple[Any, ...]:
+    """What a list, a tuple or an array holds; no text, no mapping."""
+    one = isinstance(value, str | bytes | Mapping) or getattr(value, "ndim", 1) == 0
+    if one or not isinstance(value, Iterable):
+        raise ModelError(where, f"must be a list, is {shown(value)}", hint)
+    return tuple(value)
+
+
+def mapping(value: object, where: str, hint: str = "") -> dict[Any, Any]:
+    """What a mapping holds; nothing of None."""
+    if value is not None and not isinstance(value, Mapping):
+        raise ModelError(where, f"must be a mapping, is {shown(value)}", hint)
+    return dict(value or {})
+
+
+def path(value: object, where: str) -> Path:
+    """A path, or the text of one."""
+    if not isinstance(value, str | os.PathLike):
+        raise ModelError(where, f"must be a path, is {shown(value)}")
+    return Path(value)
+
+
+def function(value: object, where: str, of: str) -> None:
+    """What can be called."""
+    if not callable(value):
+        raise ModelError(where, f"must be a function of {of}, is {shown(value)}")
+
+
 def progress(value: object, where: str) -> None:
     """What is called while a computation goes on, or nothing."""
     if value is not None and not callable(value):
@@ -143,8 +184,8 @@ def curve(value: object, where: str) -> FloatArray:
 def vector(value: object, where: str) -> FloatArray:
     """Three finite numbers."""
     if isinstance(value, int | float) and not isinstance(value, bool):
-        what = f"must be a list of three numbers, is {shown(value)}"
-        raise ModelError(where, what, f"along z it is (0, 0, {value:g})")
+        what, along = f"must be a list of three numbers, is {shown(value)}", shown(value)
+        raise ModelError(where, what, f"along z it is (0, 0, {along})")
     return array(value, where, (3,))
 
 

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from ..arrays import FloatArray
 from ..errors import ModelError
 from ..reading import as_input
+from . import checks
 from .shape import AT, Parameter, Shape
 
 #: Of the size of a mesh: corners of an STL file that are as near are one.
@@ -70,7 +71,7 @@ class Mesh(Shape):
             if np.any(outside):
                 k = int(np.flatnonzero(outside.any(axis=1))[0])
                 raise ModelError(f"Mesh.triangles[{k}]", f"names a point that is none of the {len(points)}")
-        points = points * self.scale
+        points = points * checks.positive(self.scale, "Mesh.scale")
         furthest = float(np.max(np.abs(points)))
         if furthest > FURTHEST:
             what = f"has points {furthest:.3g} m away: distances from it are not known to 0.1 mm"

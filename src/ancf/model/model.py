@@ -74,7 +74,9 @@ class Model(Supporting, Readable):
         super().__init__()
         if isinstance(gravity, int | float):
             what = f"must be a list of three numbers, is {checks.shown(gravity)}"
-            raise ModelError("Model.gravity", what, f"(0, 0, {-abs(gravity):g}) where z points upwards")
+            raise ModelError(
+                "Model.gravity", what, f"(0, 0, {checks.shown(-abs(gravity))}) where z points upwards"
+            )
         self.gravity: FloatArray = checks.vector(gravity, "Model.gravity")
         self.title = checks.text(title, "Model.title")
         self.supports: list[Support] = []

@@ -120,7 +120,12 @@ Round = tuple[FloatArray, float, float]
 
 def _wheel(given: Any, where: str) -> Round:
     """Centre, radius and sign of a wheel."""
-    table = dict(given) if isinstance(given, dict) else dict(zip(KEYS, given, strict=False))
+    hint = f"{', '.join(KEYS)}"
+    table = (
+        dict(given)
+        if isinstance(given, dict)
+        else dict(zip(KEYS, checks.items(given, where, hint), strict=False))
+    )
     if unknown := set(table) - set(KEYS):
         raise ModelError(f"{where}.{min(unknown)}", f"is no key of a wheel, which has {', '.join(KEYS)}")
     for key in KEYS[:2]:

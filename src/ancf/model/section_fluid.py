@@ -34,6 +34,6 @@ def _pair(given: Any, where: str) -> tuple[float, float] | None:
         return None
     if isinstance(given, int | float):
         what = f"must be two numbers, normal to the axis and along it, is {checks.shown(given)}"
-        raise ModelError(where, what, f"({given:g}, {_ALONG[where]})")
+        raise ModelError(where, what, f"({checks.shown(given)}, {_ALONG[where]})")
     normal, tangential = checks.array(given, where, (2,)).tolist()
     return checks.non_negative(normal, f"{where}[0]"), checks.non_negative(tangential, f"{where}[1]")

@@ -14,6 +14,7 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..errors import ModelError
+from . import checks
 from .mesh import Mesh
 from .shape import AT, AXIS, RADIUS, Parameter, Shape
 
@@ -240,7 +241,7 @@ class Sheave(Shape):
 
     def check(self) -> None:
         """The flanks open, and the groove is as deep as its round bottom."""
-        if self.angle >= math.pi:
+        if checks.positive(self.angle, "Sheave.angle") >= math.pi:
             raise ModelError("Sheave.angle", f"is {self.angle:g} rad, must be less than pi")
         least = self.groove * (1.0 - math.sin(0.5 * self.angle))
         if self.depth < least:

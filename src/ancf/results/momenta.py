@@ -60,7 +60,7 @@ class Momenta:
         system = self.system
         name = getattr(body, "name", body)
         if not isinstance(name, str) or not isinstance(system.model.bodies.get(name), RigidBody):
-            if name in system.model.bodies:
+            if isinstance(name, str) and name in system.model.bodies:
                 raise ModelError(named(name), "is no rigid body, and has no angular velocity")
             raise unknown("angular_velocity", "rigid body", name, system.model.rigid_bodies)
         slots = system.slots[name][0, 1:]

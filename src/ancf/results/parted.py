@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from ..arrays import FloatArray, IntArray
-from ..errors import ModelError, named
+from ..errors import ModelError, called, named
 from ..model.joints import Spherical
 from ..model.points import Point
 from ..system.core import apply_load, place_supports, residual
@@ -23,7 +23,7 @@ from .remembered import Remembered
 
 def shared_joint(system: System, joint: Any) -> Spherical | None:
     """The joint, or that of this name, if it is one whose nodes share their position."""
-    name = getattr(joint, "name", joint)
+    name = called(joint)
     balls = (c for c in system.model.connections if isinstance(c, Spherical) and c.shared)
     return next((ball for ball in balls if ball.name == name), None)
 

@@ -244,7 +244,14 @@ class Result(SpringFields, ContactFields, Momenta, Motions, Led, Filmed, Readabl
         return self._header
 
     def state(self, index: int = -1) -> State:
-        """State at a stored time, from which a simulation can go on."""
+        """State at a stored time, from which a simulation can go on.
+
+        Raises
+        ------
+        ModelError
+            The index is no whole number, or none of ``result.t``.
+        """
+        index = checks.integer(index, "state.index", -len(self.t), len(self.t) - 1)
         q, v = np.array(self.q[index]), np.array(self.v[index])  # copies: a state outlives its history
         known = self._known(range(len(self.t))[index])
         made = State(self._system, float(self.t[index]), q, v, self.stats, known)
@@ -376,7 +383,7 @@ def load(path: str | Path, system: System | None = None) -> Result:
     ModelError
         There is no such file, or it is not a results file.
     """
-    return read(ReadStore(path), system)
+    return read(ReadStore(path), None if system is None else checks.kind(system, "load.system", System))
 
 
 def read(store: ReadStore, system: System | None = None) -> Result:

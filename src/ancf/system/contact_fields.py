@@ -13,7 +13,7 @@ from ..contact.bump_fields import bump_pressures, roll_frictions
 from ..contact.cross_fields import cross_pressures, grip_frictions
 from ..contact.fields import frictions, pressures
 from ..contact.rubbed import RUBBED, SLIPPED
-from ..errors import ModelError, named
+from ..errors import ModelError, called, named
 from ..model.body_contact import BodyContact
 from ..model.cable_contact import CableContact
 from ..model.contact import Contact
@@ -84,7 +84,7 @@ class ContactFields(SlideFields):
         ModelError
             There is no such sliding joint or contact.
         """
-        if getattr(joint, "name", joint) in self._contacts():
+        if called(joint) in self._contacts():
             return self._strip(joint)[..., ARC]
         return super().arc_length(joint)
 
@@ -94,19 +94,19 @@ class ContactFields(SlideFields):
 
     def rubs(self, contact: Any) -> bool:
         """Whether a contact is one with a surface or of cables, which may have friction."""
-        name = getattr(contact, "name", contact)
+        name = called(contact)
         return any(name in _named(self.model, kind) for kind in TOUCHING)
 
     def _strip(self, contact: Any) -> FloatArray:
         """The same of a contact with a strip."""
-        name = getattr(contact, "name", contact)
+        name = called(contact)
         if self.rubs(contact):
             what = "is a contact all along a beam, which has many places"
             raise ModelError(named(name), what, "of a surface, ask state.contact_line(...) for them")
         return self._contact(contact)
 
     def _rubbed(self, contact: Any, column: int) -> FloatArray:
-        name = getattr(contact, "name", contact)
+        name = called(contact)
         if name in _named(self.model, Contact):
             raise ModelError(named(name), "is a contact with a strip, which has no friction")
         found = self._contact(contact)[..., column]
@@ -117,7 +117,7 @@ class ContactFields(SlideFields):
 
     def _contact(self, contact: Any) -> FloatArray:
         """Force, overlap, s and place on the strip, or friction and the share that slips, shape (..., 4)."""
-        name = getattr(contact, "name", contact)
+        name = called(contact)
         names = self._contacts()
         if name not in names:
             there = "there are: " + ", ".join(names) if names else "there are none"

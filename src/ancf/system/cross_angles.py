@@ -8,7 +8,7 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..connections.joint_build import Vector, axis_of
-from ..errors import ModelError, named
+from ..errors import ModelError, called, named
 from ..model.rigid_joints import Universal
 from .joint_travels import JointTravels
 from .joint_vectors import dot, recorded, values_of
@@ -58,7 +58,7 @@ class CrossAngles(JointTravels):
 
     def has_angles(self, name: str) -> bool:
         """Whether a joint has two angles; of sensors, and its ends were recorded."""
-        item = crosses(self.model.connections).get(name)
+        item = crosses(self.model.connections).get(name) if isinstance(name, str) else None
         return item is not None and all(recorded(*axes) for axes in self._axes(item))
 
     @staticmethod
@@ -78,7 +78,7 @@ class CrossAngles(JointTravels):
         return [first, second]
 
     def _crossed(self, joint: Any) -> list[tuple[Vector, Vector, Vector]]:
-        name = getattr(joint, "name", joint)
+        name = called(joint)
         known = crosses(self.model.connections)
         item = known.get(name) if isinstance(name, str) else None
         if item is None:

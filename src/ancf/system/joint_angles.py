@@ -9,7 +9,7 @@ import numpy as np
 from ..arrays import FloatArray
 from ..connections.torsion import TorsionBatch
 from ..connections.torsion_build import torsion_springs
-from ..errors import ModelError, named
+from ..errors import ModelError, called, named
 from ..model.guides import Cylindrical, Planar, Prismatic
 from ..model.joints import Revolute
 from ..model.rigid_joints import Universal
@@ -54,7 +54,7 @@ class JointAngles(TorsionFields):
 
     def has_angle(self, name: str) -> bool:
         """Whether a joint turns about an axis; of sensors, and its ends were recorded."""
-        item = turning_joints(self.model.connections).get(name)
+        item = turning_joints(self.model.connections).get(name) if isinstance(name, str) else None
         return item is not None and is_known(self._measured(item))
 
     def _measured(self, item: Turning) -> TorsionBatch:
@@ -62,7 +62,7 @@ class JointAngles(TorsionFields):
         return torsion_springs([TorsionSpring(item.name, item.a, item.b, item.axis, 0, 0, 0)], self.slots)
 
     def _turning(self, joint: Any) -> TorsionBatch:
-        name = getattr(joint, "name", joint)
+        name = called(joint)
         known = turning_joints(self.model.connections)
         item = known.get(name) if isinstance(name, str) else None
         if item is None:

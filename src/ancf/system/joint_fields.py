@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from ..arrays import FloatArray, IntArray
-from ..errors import ModelError, named
+from ..errors import ModelError, called, named
 from ..model.joints import Slide, Spherical
 
 
@@ -57,7 +57,7 @@ class JointFields:
         ModelError
             There is no such joint with multipliers.
         """
-        name = getattr(joint, "name", joint)
+        name = called(joint)
         if name not in self._joints:
             raise _unknown(name, self._joints)
         unknowns = self._joints[name]
@@ -69,7 +69,9 @@ class JointFields:
     def has_force(self, name: str) -> bool:
         """Whether a joint has multipliers; of sensors, and all that its force needs was recorded."""
         connections = self.model.connections  # type: ignore[attr-defined]
-        return name in self._joints and any(item.name == name for item in connections)
+        return (
+            isinstance(name, str) and name in self._joints and any(item.name == name for item in connections)
+        )
 
     def has_moment(self, name: str) -> bool:
         """The same of a joint that holds directions, and not points alone."""
@@ -78,7 +80,7 @@ class JointFields:
         return self.has_force(name) and name not in points
 
     def _arc(self, joint: Any) -> int:
-        name = getattr(joint, "name", joint)
+        name = called(joint)
         if name not in self._arcs:
             raise _unknown(name, self._arcs)
         return self._arcs[name]

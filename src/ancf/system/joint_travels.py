@@ -8,7 +8,7 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..connections.joint_build import Vector, axis_of, place_of
-from ..errors import ModelError, named
+from ..errors import ModelError, called, named
 from ..model.guides import Cylindrical
 from ..model.points import Point, initial_position
 from .fields import Fields
@@ -54,7 +54,7 @@ class JointTravels(JointAngles):
 
     def has_travel(self, name: str) -> bool:
         """Whether a joint slides along an axis; of sensors, and its ends were recorded."""
-        item = sliding_joints(self.model.connections).get(name)
+        item = sliding_joints(self.model.connections).get(name) if isinstance(name, str) else None
         return item is not None and recorded(*self._ends(item))
 
     def _ends(self, item: Cylindrical) -> tuple[Vector, Vector]:
@@ -67,7 +67,7 @@ class JointTravels(JointAngles):
         return gap, axis_of(item.b, item.axis, self.slots)
 
     def _led_along(self, joint: Any) -> tuple[Cylindrical, Vector, Vector]:
-        name = getattr(joint, "name", joint)
+        name = called(joint)
         known = sliding_joints(self.model.connections)
         item = known.get(name) if isinstance(name, str) else None
         if item is None:

@@ -8,6 +8,7 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..connections.sliding_build import carrier_line
+from ..errors import called
 from ..model.joints import Slide
 from .joint_fields import JointFields
 
@@ -40,7 +41,7 @@ class SlideFields(JointFields):
     def _sliding(self, joint: Any) -> tuple[FloatArray, FloatArray]:
         me: Any = self
         arc = self._arc(joint)
-        name = getattr(joint, "name", joint)
+        name = called(joint)
         item = next(c for c in me.model.connections if isinstance(c, Slide) and c.name == name)
         x, line, poly = carrier_line(item, me.slots)
         q, v = np.atleast_2d(me.q[...]), np.atleast_2d(me.v[...])

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from ..._version import __version__
 from ...errors import ModelError
 from ...files import write_text, writing
+from ...model import checks
 from ...viz import printed, style
 from ...viz.html import element, figure, page, section
 from ..acceptance import acceptance, footnote, verdict
@@ -60,13 +61,14 @@ def write_report(
         cover its window.
 
     """
-    kind = Path(path).suffix.removeprefix(".")
+    path = checks.path(path, "write_report.path")
+    kind = path.suffix.removeprefix(".")
     paper = kind in printed.FORMATS
     if not paper and kind not in (printed.HTML, "htm", ""):
         formats_there = ", ".join((printed.HTML, *printed.FORMATS))
         raise ModelError(str(path), f"ends with .{kind}", f"reports are {formats_there}")
     formats = printed.chosen([kind], str(path)) if paper else (printed.HTML,)
-    return _write(Content.of(run, reference, elasticity, measured), [(formats[0], Path(path))])[0]
+    return _write(Content.of(run, reference, elasticity, measured), [(formats[0], path)])[0]
 
 
 def write_reports(

@@ -6,16 +6,17 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from ..references import filter_note, second_reading
+from ...model import checks
+from ..elasticity import Elasticity
+from ..measuring import Measured
+from ..passing import check_run
+from ..references import REFERENCE, Reference, filter_note, second_reading
 from ..statistics import Statistics, statistics
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from ..elasticity import Elasticity
-    from ..measuring import Measured
     from ..quantity import Quantity
-    from ..references import Reference
     from ..run_data import Run
 
 
@@ -54,7 +55,22 @@ class Content:
         elasticity: Elasticity | None = None,
         measured: Sequence[Measured] = (),
     ) -> Content:
-        """Content of a report on a run, with the statistics of all its pantographs."""
+        """Content of a report on a run, with the statistics of all its pantographs.
+
+        Raises
+        ------
+        ModelError
+            One of them is of another kind.
+
+        """
+        check_run(run, "write_report")
+        if reference is not None:
+            checks.kind(reference, "write_report.reference", Reference, REFERENCE)
+        if elasticity is not None:
+            checks.kind(elasticity, "write_report.elasticity", Elasticity, "ancf.catenary.elasticity(line)")
+        hint = "ancf.catenary.measure(run, k), one for each pantograph"
+        for k, one in enumerate(checks.items(measured, "write_report.measured", hint)):
+            checks.kind(one, f"write_report.measured[{k}]", Measured, hint)
         found = tuple(statistics(run, k) for k in range(len(run.recordings)))
         return cls(run, found, reference, elasticity, tuple(measured))
 

@@ -37,6 +37,7 @@ class GeneralizedAlpha(NewmarkFamily):
     name = "generalized_alpha"
 
     def __post_init__(self) -> None:
+        checks.kind(self.newton, "GeneralizedAlpha.newton", Newton, "ancf.Newton(tolerance=1e-10)")
         checks.between(self.rho_inf, "GeneralizedAlpha.rho_inf", 0.0, 1.0)
         checks.choice(self.formulation, "GeneralizedAlpha.formulation", FORMULATIONS)
 

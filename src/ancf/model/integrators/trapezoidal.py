@@ -32,6 +32,7 @@ class Trapezoidal(NewmarkFamily):
     name = "trapezoidal"
 
     def __post_init__(self) -> None:
+        checks.kind(self.newton, "Trapezoidal.newton", Newton, "ancf.Newton(tolerance=1e-10)")
         if isinstance(self.formulation, str) and self.formulation == "index3":
             what = 'is "index3": the trapezoidal rule damps no error of the multipliers, which oscillate'
             hint = 'take "ggl", which holds the positions as well, or the generalised-alpha method'

@@ -1,0 +1,143 @@
+"""What is asked with a thing of another kind is answered by its name, never by an error from inside."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+import ancf
+from ancf import ModelError
+from overhead_lines import short_line
+
+
+def _model():
+    model = ancf.Model(gravity=(0.0, 0.0, -9.81))
+    section = ancf.Section(EA=1e4, EI=1.0, rhoA=0.5)
+    beam = model.add_beam("beam", start=(0, 0, 0), end=(1, 0, 0), elements=2, section=section)
+    model.clamp(beam.start)
+    return model
+
+
+@cache
+def _result():
+    return ancf.simulate(_model(), t_end=0.004, step=1e-3)
+
+
+HUGE = 10**400
+#: Of each question all that it is not about.
+KINDS = {
+    "number": 3,
+    "none": None,
+    "text": "text",
+    "list": [1.0],
+    "line": short_line(),
+    "model": _model(),
+    "huge": HUGE,
+}
+PLACE, BOUNDS = "final(beam.end.position[2])", {"beam.EI": (0.5, 2.0)}
+TIME = {"t_end": 2e-3, "step": 1e-3}
+
+
+def _least(**changes):
+    given = {"objective": PLACE, "parameters": BOUNDS, "most": 1} | TIME
+    return ancf.minimise(_model(), **(given | changes))
+
+
+def _tuned(**changes):
+    return ancf.calibrate(lambda EI: _model(), {}, {"EI": (0.5, 2.0)}, **changes)
+
+
+def _sampled(other):
+    return ancf.sample({"a": ancf.Uniform(1.0, 2.0)}, count=4, correlations=other)
+
+
+#: What is asked with it, the place that is named, and the kinds that it may be.
+ASKED = [
+    (lambda other: _result().state(other), "state.index", ["number"]),
+    (lambda other: ancf.stable_step(other), "stable_step.model", ["model"]),
+    (lambda other: _least(objective=other), "minimise.objective", ["text"]),
+    (lambda other: _least(start=other), "minimise.start", ["none"]),
+    (lambda other: _least(constraints=other), "minimise.constraints", ["none"]),
+    (lambda other: _least(begin=other), "minimise.begin", ["none"]),
+    (lambda other: _tuned(start=other), "calibrate.start", ["none"]),
+    (_sampled, "sample.correlations", ["none"]),
+    (lambda other: ancf.verify(_model(), **TIME, sensors=other), "verify.sensors", ["none"]),
+    (lambda other: ancf.verify(_model(), **TIME, outputs=other), "verify.outputs", ["none", "list"]),
+    (lambda other: ancf.GeneralizedAlpha(newton=other), "GeneralizedAlpha.newton", []),
+    (lambda other: ancf.Trapezoidal(newton=other), "Trapezoidal.newton", []),
+    (lambda o: ancf.Sheave(radius=1, groove=0.1, depth=0.2, angle=o), "Sheave.angle", ["number"]),
+    (lambda other: ancf.Reeving([other], axis=(0, 1, 0), start=(0, 0, 0), end=(1, 0, 0)), "wheels[0]", []),
+    (lambda o: ancf.FmuController(o, step=1e-3, inputs={}, outputs={}), "FmuController.path", ["text"]),
+    (lambda other: ancf.stepper(_model(), step=1e-3).save(other), "save.file", ["text"]),
+]
+
+
+@pytest.mark.parametrize(
+    ("ask", "where", "kind"),
+    [(ask, where, kind) for ask, where, taken in ASKED for kind in KINDS if kind not in taken],
+)
+def test_another_kind_is_named(ask, where, kind):
+    """They ended with TypeError, AttributeError or IndexError."""
+    with pytest.raises(ModelError) as error:
+        ask(KINDS[kind])
+    assert where in error.value.where
+
+
+@pytest.mark.parametrize("index", [4.0, 0.5, True, "1", 5, -6, 99, np.float64(1.0)])
+def test_states_have_whole_numbers(index):
+    with pytest.raises(ModelError, match=r"state\.index"):
+        _result().state(index)
+
+
+@pytest.mark.parametrize("index", [0, 4, -1, -5, np.int64(2)])
+def test_states_of_whole_numbers(index):
+    assert _result().state(index).t == _result().t[index]
+
+
+@pytest.mark.parametrize(
+    "ask",
+    [
+        "multiplier",
+        "joint_force",
+        "joint_angle",
+        "joint_rate",
+        "joint_displacement",
+        "joint_velocity",
+        "arc_length",
+        "arc_rate",
+        "normal_force",
+        "contact_force",
+        "contact_gap",
+        "friction_force",
+        "slipping",
+        "angular_velocity",
+    ],
+)
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("of", ["result", "state"])
+def test_what_is_no_joint(ask, kind, of):
+    """What has no hash, as a line, ended with "unhashable type"."""
+    asked = _result() if of == "result" else _result().state()
+    with pytest.raises(ModelError):
+        getattr(asked, ask)(KINDS[kind])
+
+
+@pytest.mark.parametrize("ask", ["has_force", "has_moment", "has_angle", "has_angles", "has_travel"])
+@pytest.mark.parametrize("kind", KINDS)
+def test_there_is_no_such_joint(ask, kind):
+    assert getattr(_result(), ask)(KINDS[kind]) is False
+
+
+@pytest.mark.parametrize(
+    "ask",
+    [
+        lambda: ancf.Model(gravity=HUGE),
+        lambda: ancf.Sphere(radius=1.0, at=HUGE),
+        lambda: ancf.Plane(normal=-HUGE),
+        lambda: ancf.Section(EA=1.0, EI=1.0, rhoA=1.0, diameter=0.1, drag=HUGE),
+    ],
+)
+def test_numbers_beyond_all(ask):
+    """The advice of the message could not be written: OverflowError."""
+    with pytest.raises(ModelError, match="must be"):
+        ask()
