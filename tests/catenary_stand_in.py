@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from ancf.catenary import Conditions
+from ancf.catenary import Conditions, Elasticity
 from ancf.catenary.run_data import Recording, Run
 
 SPAN, SPANS = 60.0, 10
@@ -124,9 +124,8 @@ def elasticity(span=4):
     """0.4 to 0.6 mm/N at 100 N, a tenth more at 200 N: non-uniformity 0.2."""
     x = np.linspace(0.0, SPAN, 61)
     value = np.outer([1.0, 1.1], 0.5 - 0.1 * np.cos(2 * np.pi * x / SPAN))
-    return SimpleNamespace(
-        span=span, x=x, force=np.array([100.0, 200.0]), value=value, nonuniformity=np.array([0.2, 0.2])
-    )
+    force = np.array([100.0, 200.0])
+    return Elasticity(span=span, x=x, force=force, lift=1e-3 * value * force[:, None])
 
 
 def contact_force(position, t, seed=1):

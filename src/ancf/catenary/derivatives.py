@@ -14,6 +14,7 @@ import ancf
 from ..arrays import FloatArray
 from ..errors import ModelError
 from ..model import checks
+from ..model.points import Point
 from ..sensitivity.parameters import Parameter
 from ..system.beside import BODIES, SPRINGS, Acts
 from .assemble import Assembled
@@ -23,9 +24,11 @@ from .passing import check_run as check_run_of
 from .passing import in_window, uplift_in_window
 from .run_data import RunSlopes
 from .signals import BANDS, Butterworth, filter_of, sample_rate
+from .twin import second_supports
 
 if TYPE_CHECKING:
     from .plan import Plan
+    from .ready import Ready
     from .run_data import Run
 
 WHERE = "run.sensitivities"
@@ -151,11 +154,22 @@ def _lengthened(overhead: Assembled, model: ancf.Model, label: Any, where: str) 
     return Lengthened(spring.name, clamps, rate, damping, 0.5 * droppers.mass * stretch)
 
 
-def records(sensors: Any, overhead: Assembled, collectors: Sequence[Any], name: str, rest: Any) -> RunSlopes:
-    """Derivatives of what a run recorded; ``rest`` is the sensitivity of the line without pantographs."""
-    own = sensors.sensitivity(name)
-    force = tuple(np.sum([own.contact_force(meter) for meter in c.meters], axis=0) for c in collectors)
-    uplift = np.stack([own.position(p)[:, 2] - float(rest.position(p)[2]) for p in overhead.supports], axis=1)
+def records(sensors: Any, begun: Ready, name: str, rest: Any, lifted: FloatArray) -> RunSlopes:
+    """Derivatives of what a run recorded, of twin contact wires those of the one that is higher at each time.
+
+    ``rest`` is the sensitivity of the line without pantographs, ``lifted`` the uplift (steps, supports).
+    """
+    own, supports = sensors.sensitivity(name), begun.overhead.supports
+    force = tuple(np.sum([own.contact_force(m) for m in c.meters], axis=0) for c in begun.collectors)
+
+    def risen(point: Point) -> FloatArray:
+        rate: FloatArray = own.position(point)[:, 2] - float(rest.position(point)[2])
+        return rate
+
+    uplift = np.stack([risen(point) for point in supports], axis=1)
+    for k, point in second_supports(begun.overhead).items():
+        first = sensors.position(supports[k])[:, 2] - begun.rest.height[k]
+        uplift[:, k] = np.where(lifted[:, k] > first, risen(point), uplift[:, k])
     return RunSlopes(force, uplift)
 
 

@@ -57,8 +57,7 @@ def recorded(result: ancf.Result, ready: Ready, said: dict[str, Any]) -> Run:
     sensors, line, collectors = result.sensors, overhead.form.line, ready.collectors
     t: FloatArray = sensors.t
     uplift = np.stack([sensors.position(p)[:, 2] for p in overhead.supports], axis=1) - rest.height
-    if not ready.wanted:
-        _lift_second(uplift, sensors, ready)
+    _lift_second(uplift, sensors, ready)
     simulated = float(t[-1] - t[0])
     broken = broken_of(overhead)
     cpu = plan.spent + result.stats.cpu_seconds

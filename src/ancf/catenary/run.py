@@ -248,5 +248,5 @@ def _simulated(
     found = {}
     for parameter in begun.wanted:
         name, rest = parameter.name, begun.alone.sensitivity(parameter.name)
-        found[name] = records(result.sensors, begun.overhead, begun.collectors, name, rest)
+        found[name] = records(result.sensors, begun, name, rest, made.uplift)
     return replace(made, slopes=found)
