@@ -2,12 +2,13 @@
 
 import json
 from dataclasses import replace
+from itertools import product
 
 import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from ancf.catenary import Conditions, form, read_line, run, statistics
+from ancf.catenary import Conditions, Route, form, read_line, run, statistics
 from ancf.catenary.kept import read_run
 from ancf.catenary.report import write_reports
 from ancf.catenary.state import state, tensions, titled
@@ -35,6 +36,19 @@ class TestWords:
         assert state(line) == "-5 °C, ice 0.5 kg/m, contact wire worn by 20 %, ends pulled by weights"
         assert titled(line) == "Short line, -5 °C, ice 0.5 kg/m, contact wire worn by 20 %"
         assert titled(short_line()) == "Short line"
+
+    @pytest.mark.parametrize("anchors", list(product(("fixed", "tension"), repeat=3)))
+    def test_ends_of_all_sections(self, anchors):
+        """Only those of the first section were told."""
+        lines = [short_line(anchors=kind, stagger=0.0, height=(0.1, *[0.0] * 4, 0.1)) for kind in anchors]
+        told = state(Route(lines=tuple(lines), starts=(0.0, 136.0, 272.0)))
+        words = {"fixed": "fixed ends", "tension": "ends pulled by weights"}
+        if len(set(anchors)) == 1:
+            assert told == f"as designed, 10 °C, {words[anchors[0]]}"
+            return
+        for kind, text in words.items():
+            at = [f"{k + 1}" for k, own in enumerate(anchors) if own == kind]
+            assert f"{text} (section{'s' * (len(at) > 1)} {', '.join(at)})" in told
 
     def test_tensions_between_fixed_ends(self):
         """Heat takes EA alpha dT from wires that hang nearly straight; sag gives some of it back."""

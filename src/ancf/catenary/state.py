@@ -38,12 +38,27 @@ def changes(line: Line | Route) -> str:
 
 
 def state(line: Line | Route) -> str:
-    """The conditions and what pulls the ends: "as designed, 10 °C, fixed ends"."""
+    """The conditions and what pulls the ends: "as designed, 10 °C, fixed ends".
+
+    Of a route whose sections differ in it "fixed ends (section 1), ends pulled by weights (sections 2, 3)".
+    """
     first = line.parts[0]
     told = changes(line) or "as designed"
     if first.conditions.temperature is None:
         told += f", {first.temperature:g} °C"
-    return f"{told}, {ENDS[first.anchors]}"
+    return f"{told}, {_ends(line)}"
+
+
+def _ends(line: Line | Route) -> str:
+    """What pulls the ends of all sections."""
+    of: dict[str, list[str]] = {}
+    for number, part in enumerate(line.parts, start=1):
+        of.setdefault(ENDS[part.anchors], []).append(f"{number}")
+    if len(of) == 1:
+        return next(iter(of))
+    return ", ".join(
+        f"{text} (section{'s' if len(at) > 1 else ''} {', '.join(at)})" for text, at in of.items()
+    )
 
 
 def titled(line: Line | Route) -> str:
