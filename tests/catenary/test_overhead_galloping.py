@@ -19,6 +19,7 @@ from ancf.catenary import (
     Route,
     Span,
     SteadyArm,
+    StitchWire,
     Wire,
     assemble,
     form,
@@ -208,6 +209,60 @@ class TestStates:
         lifted = 0.5 * 1.225 * wind**2 * 0.0122 * 0.8
         assert sags[0] / sags[1] == pytest.approx(1.0 - lifted / (0.95 * 9.81), rel=5e-3)
 
+    @pytest.mark.parametrize("wire", ["contact_wire", "messenger_wire", "stitch", "auxiliary"])
+    @pytest.mark.parametrize(("wind", "coefficient"), [(25.0, 0.8), (-30.0, -0.5)])
+    def test_every_wire_is_lifted(self, wire, wind, coefficient):
+        """As by the same forces on it along its length; those of stitch wires were left out."""
+        line = replace(of_all(wire == "auxiliary"), conditions=Conditions(wind=wind))
+        rows, mesh = ((-0.3, coefficient), (0.3, coefficient)), Mesh(contact=2.0, messenger=3.0)
+        plain = assemble(form(line, mesh))
+        names = {"contact_wire": ["contact"], "messenger_wire": ["messenger"], "auxiliary": ["auxiliary"]}
+        strung = plain.stitches if wire == "stitch" else [getattr(plain, names[wire][0])]
+        before = ancf.equilibrium(plain.model)
+        for one in strung:
+            per_length = 0.5 * line.conditions.air_density * wind**2 * one.shape.wire.diameter * coefficient
+            for beam in one.beams:
+                plain.model.add_distributed_load(beam, (0.0, 0.0, per_length))
+        after = ancf.equilibrium(plain.model)
+        lifted = assemble(form(with_lift(line, wire, rows), mesh))
+        state = ancf.equilibrium(lifted.model)
+        made = lifted.stitches if wire == "stitch" else [getattr(lifted, names[wire][0])]
+        for one, other in zip(strung, made, strict=True):
+            risen = one.positions(after)[:, 2] - one.positions(before)[:, 2]
+            found = other.positions(state)[:, 2] - one.positions(before)[:, 2]
+            assert np.abs(risen).max() > 1e-4
+            np.testing.assert_allclose(found, risen, atol=2e-2 * np.abs(risen).max())
+
+
+def of_all(compound):
+    """A line with an auxiliary, or with stitch wires."""
+    thin = Wire(EA=3e6, EI=10.0, mass=0.3, tension=2.5e3, diameter=0.0075)
+    held = DropperRule(first=6.0, pitch_max=10.0)
+    droppers = Droppers(EA=2e5)
+    given = {"stitch": StitchWire(wire=thin, reach=6.0)}
+    if compound:
+        given = {"auxiliary": Auxiliary(wire=STRING, height=0.4, droppers=droppers, places=held)}
+    wires = {"contact_wire": replace(STRING, tension=20e3), "messenger_wire": replace(STRING, tension=16e3)}
+    return short_line(droppers=droppers, **given, **wires)
+
+
+def with_lift(line, wire, rows):
+    """The line with a table of lift for one of its wires."""
+    part = getattr(line, wire)
+    if isinstance(part, Wire):
+        return replace(line, **{wire: replace(part, lift=rows)})
+    return replace(line, **{wire: replace(part, wire=replace(part.wire, lift=rows))})
+
+
+@pytest.mark.parametrize("reach", [5.0, 7.0])
+def test_a_stitch_wire_gallops_between_its_ends(reach):
+    plain = replace(of_all(False), conditions=Conditions(wind=20.0))
+    plain = replace(plain, stitch=replace(plain.stitch, reach=reach))
+    (found,) = galloping(with_lift(plain, "stitch", table(-4.0)))
+    assert found.wire == "stitch wire"
+    assert found.frequency == pytest.approx(np.sqrt(2.5e3 / 0.3) / (4.0 * reach))
+    assert "the stitch wire gallops" in said(with_lift(plain, "stitch", table(-4.0)))[0]
+
 
 ROWS = "angle_deg,lift\n-20,0.6\n0,0\n20,-0.6\n"
 
@@ -229,6 +284,20 @@ class TestFile:
         inline = read_line(self.given(tmp_path, "[[-0.3, 0.6], [0.3, -0.6]]", wire="messenger_wire"))
         assert inline.messenger_wire.lift == ((-0.3, 0.6), (0.3, -0.6))
         assert galloping(inline)[0].wire == "messenger wire"
+
+    @pytest.mark.parametrize("wire", ["stitch", "auxiliary_wire"])
+    def test_of_other_wires(self, tmp_path, wire):
+        (tmp_path / "lift.csv").write_text(ROWS)
+        added = f"[{wire}]\nEA = 3e6\nEI = 10.0\nmass = 0.3\ntension = 2.5e3\ndiameter = 0.0075\n"
+        added += 'lift = "lift.csv"\n'
+        if wire == "stitch":
+            added += "reach = 6.0\n"
+        else:
+            added += "height = 0.4\nplaces = { first = 6.0, pitch_max = 10.0 }\n[long_droppers]\nEA = 2e5\n"
+        (tmp_path / "line.toml").write_text(f"{TOML}\n{added}")
+        (found,) = galloping(read_line(tmp_path / "line.toml"))
+        assert found.wire == ("stitch wire" if wire == "stitch" else "auxiliary")
+        assert found.slope == pytest.approx(-0.6 / (np.pi / 9))
 
     @pytest.mark.parametrize(
         ("lift", "rows", "said"),

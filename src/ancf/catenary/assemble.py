@@ -300,6 +300,8 @@ def _add_stitches(overhead: Assembled, found: Form) -> None:
         overhead.model.connect(messenger.point(nodes[2 * k]), wire.start)
         overhead.model.connect(messenger.point(nodes[2 * k + 1]), wire.end)
         add_sideways(overhead.model, wire, curve_pull(found.line, shape, "stitch"))
+        if found.settled:
+            add_lift(overhead.model, wire, found.line.conditions)
         overhead.stitches.append(wire)
 
 

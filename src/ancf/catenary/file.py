@@ -215,15 +215,11 @@ def _laid(entry: LineEntry, rows: list[tuple[str, Row]]) -> dict[str, Any]:
 
 def _with_lift(entry: LineEntry, folder: Path) -> LineEntry:
     """The tables of lift that its wires name, read."""
-    for key in ("contact_wire", "messenger_wire"):
+    for key in ("contact_wire", "messenger_wire", "stitch", "auxiliary_wire"):
         wire = getattr(entry, key)
         if wire is not None and isinstance(wire.lift, str):
             read = wire.model_copy(update={"lift": read_lift(file_of(folder, wire.lift, f"{key}.lift"))})
             entry = entry.model_copy(update={key: read})
-    for key in ("stitch", "auxiliary_wire"):
-        wire = getattr(entry, key)
-        if wire is not None and wire.lift is not None:
-            raise ModelError(f"{key}.lift", "is not known of this wire", "contact_wire or messenger_wire")
     return entry
 
 

@@ -45,7 +45,7 @@ class Galloping:
         dCL/da at the angle at which the wind meets the wire at rest.
     drag : float
     frequency : float, Hz
-        Lowest of the longest span.
+        Lowest of the longest span, of a stitch wire between its two ends.
     growth : float, 1/s
         Of the amplitude at this frequency in the wind of the conditions; negative where it dies away.
     critical_speed : float, m/s
@@ -144,7 +144,13 @@ def _wires(part: Any) -> dict[str, Any]:
     """The wires on which the lift of wind acts, by what they are called."""
     auxiliary = getattr(part, "auxiliary", None)
     third = None if auxiliary is None else auxiliary.wire
-    return {"contact wire": part.contact_wire, "messenger wire": part.messenger_wire, "auxiliary": third}
+    stitch = getattr(part, "stitch", None)
+    return {
+        "contact wire": part.contact_wire,
+        "messenger wire": part.messenger_wire,
+        "auxiliary": third,
+        "stitch wire": None if stitch is None else stitch.wire,
+    }
 
 
 def slope_at(rows: Any, angle: float = 0.0) -> float:
@@ -191,7 +197,7 @@ def add_lift(model: ancf.Model, wire: Any, conditions: Any) -> None:
 def galloping(line: Any) -> list[Galloping]:
     """Den Hartog's criterion for each wire with a table of lift of a Line, or of a Route's first section.
 
-    Contact wire, as it is worn, messenger and auxiliary, with their ice.
+    Contact wire, as it is worn, messenger, auxiliary and stitch wires, with their ice.
 
     Each wire swings alone, as between its supports; droppers join wires, whose growth is then a mean of both,
     weighted by mass and amplitude.
@@ -211,7 +217,7 @@ def galloping(line: Any) -> list[Galloping]:
         left = 1.0 - air.wear if name == "contact wire" else 1.0
         pulled = getattr(air, f"{name.removesuffix(' wire')}_tension", None)
         mass, tension = left * wire.mass + air.ice, pulled or wire.tension
-        w = np.pi / span * np.sqrt(tension / mass)
+        w = np.pi / (2.0 * part.stitch.reach if name == "stitch wire" else span) * np.sqrt(tension / mass)
         slope = slope_at(wire.lift)
         damping = wire.damping / mass + part.damping.alpha + part.damping.beta * w**2
         fed = -0.5 * air.air_density * wire.diameter * (slope + wire.drag) / mass
@@ -219,6 +225,6 @@ def galloping(line: Any) -> list[Galloping]:
         growth = float(0.5 * (fed * abs(air.wind) - damping))
         found.append(Galloping(name, slope, wire.drag, float(w / (2.0 * np.pi)), growth, critical))
     if not found:
-        hint = "lift in [contact_wire] or [messenger_wire]: rows of an angle of attack and a coefficient"
+        hint = "lift in [contact_wire] or another wire: rows of an angle of attack and a coefficient"
         raise ModelError("line.contact_wire.lift", "is missing, no wire has a table of its lift", hint)
     return found
