@@ -9,11 +9,11 @@ import pytest
 from typer.testing import CliRunner
 
 from ancf import ModelError
-from ancf.catenary import SteadyArm, form, read_line
+from ancf.catenary import Rayleigh, Route, SteadyArm, form, read_line, run
 from ancf.catenary.checked import at_rest
 from ancf.catenary.fittings import Droppers
 from ancf.cli.app import app
-from overhead_lines import TOML, short_line
+from overhead_lines import COARSE, STEP, TOML, collector, short_line
 
 
 def told(line):
@@ -26,6 +26,58 @@ class TestSaid:
     def test_nothing_of_a_good_line(self):
         assert told(short_line()) == []
         assert told(read_line("en50318-2018-ac-simple")) == []
+
+    @pytest.mark.parametrize("mass", [1.0, 30.0, 99.0, 100.0, 500.0, 1500.0])
+    @pytest.mark.parametrize("one", [True, False])
+    def test_masses_of_arms_in_other_units(self, mass, one):
+        """Of all arms, or of one of them: a kilogram is not said as 1000 g."""
+        plain, heavy = SteadyArm(vertical=300.0, mass=1.0), SteadyArm(vertical=300.0, mass=mass)
+        arms = heavy if one else (plain, plain, heavy, plain, plain, plain)
+        texts = told(short_line(steady_arm=arms))
+        place = "line.steady_arm.mass" if one else "line.steady_arm[2].mass"
+        assert [text.partition(":")[0] for text in texts] == [place] * (mass >= 100.0)
+
+    @pytest.mark.parametrize(
+        ("given", "said"),
+        [
+            ({"alpha": 0.0125, "beta": 1e-4}, []),
+            ({"alpha": 2.0, "beta": 1e-2}, []),
+            ({"alpha": 100.0}, ["alpha"]),
+            ({"beta": 0.1}, ["beta"]),
+            ({"alpha": 12.5, "beta": 0.1}, ["alpha", "beta"]),
+        ],
+    )
+    def test_damping_in_other_units(self, given, said):
+        """The share of the critical damping is that of a string of the longest span."""
+        line = short_line(damping=Rayleigh(**given))
+        w = np.pi * np.sqrt(20e3 / 1.35) / 38.0
+        shares = {"alpha": given.get("alpha", 0.0) / (2.0 * w), "beta": 0.5 * given.get("beta", 0.0) * w}
+        texts = told(line)
+        assert [text.partition(":")[0] for text in texts] == [f"line.damping.{key}" for key in said]
+        for key, text in zip(said, texts, strict=True):
+            assert f"by {100.0 * shares[key]:.2g} % of critical" in text
+
+    @pytest.mark.parametrize("sections", [(0,), (1,), (0, 1)])
+    def test_of_sections(self, sections):
+        lines = [
+            short_line(
+                stagger=0.0,
+                height=(0.1, *[0.0] * 4, 0.1),
+                damping=Rayleigh(beta=0.1 if k in sections else 1e-4),
+            )
+            for k in (0, 1)
+        ]
+        texts = told(Route(lines=tuple(lines), starts=(0.0, 136.0)))
+        assert [text.partition(":")[0] for text in texts] == [f"sections[{k}].damping.beta" for k in sections]
+
+    @pytest.mark.parametrize(("beta", "said"), [(0.1, True), (1e-4, False)])
+    def test_runs_say_it_too(self, beta, said):
+        given = {"speed": 40.0, "pantograph": collector(), "step": STEP, "start": 10.0, "until": 72.0}
+        with warnings.catch_warnings(record=True) as seen:
+            warnings.simplefilter("always")
+            found = form(short_line(damping=Rayleigh(beta=beta)), COARSE)
+            run(found, **given, window=(61.0, 70.0))
+        assert any("line.damping.beta: is 0.1 s" in str(one.message) for one in seen) == said
 
     def test_arms_that_would_hang_down(self):
         """Half of the arm's weight above what the stagger pulls: T times the kink."""

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .doubts import doubts
 from .galloping import said as galloping
 from .plan import RUN_IN, Plan
 from .reach import without_droppers
@@ -33,6 +34,7 @@ def before(plan: Plan) -> Iterator[str]:
     """What is to be said about a run before it is computed."""
     yield from _speed(plan)
     yield from _lift(plan)
+    yield from doubts(plan.form.line)
     for part in plan.form.line.parts:
         yield from without_droppers(part)
     if plan.step > LONGEST * (1.0 + 1e-9):

@@ -8,6 +8,7 @@ import numpy as np
 
 from ..errors import ModelError
 from .arms import check_hinged, on_arm
+from .doubts import doubts
 from .form import Form
 from .line import Line
 from .plan import RAISED
@@ -31,8 +32,9 @@ def at_rest(line: Line | Route) -> list[str]:
     Returns
     -------
     list of str
-        Warnings: staggers at supports beyond strips of the usual length, arms that pull little, droppers
-        that stretch much. Of a line of more than 200 spans, or 50 droppers a span, that it is not looked at.
+        Warnings: numbers that look like those of other units, staggers at supports beyond strips of the
+        usual length, arms that pull little, droppers that stretch much. Of a line of more than 200 spans,
+        or 50 droppers a span, that it is not looked at.
 
     Raises
     ------
@@ -40,7 +42,7 @@ def at_rest(line: Line | Route) -> list[str]:
         The line has no form, or a hinged arm would hang down.
 
     """
-    said = list(_wide(line))
+    said = [*doubts(line), *_wide(line)]
     spans, droppers = len(line.spans), line.dropper_x.size
     if spans > MOST_FORMED or droppers > MOST_DROPPERS * spans:
         text = f"line: its form is not looked at, of {spans} spans and {droppers} droppers"
