@@ -28,7 +28,6 @@ from .twin import second_supports
 
 if TYPE_CHECKING:
     from .plan import Plan
-    from .ready import Ready
     from .run_data import Run
 
 WHERE = "run.sensitivities"
@@ -154,10 +153,11 @@ def _lengthened(overhead: Assembled, model: ancf.Model, label: Any, where: str) 
     return Lengthened(spring.name, clamps, rate, damping, 0.5 * droppers.mass * stretch)
 
 
-def records(sensors: Any, begun: Ready, name: str, rest: Any, lifted: FloatArray) -> RunSlopes:
+def records(sensors: Any, begun: Any, name: str, rest: Any, lifted: FloatArray) -> RunSlopes:
     """Derivatives of what a run recorded, of twin contact wires those of the one that is higher at each time.
 
-    ``rest`` is the sensitivity of the line without pantographs, ``lifted`` the uplift (steps, supports).
+    ``begun`` is what was made ready, ``rest`` the sensitivity of the line without pantographs, ``lifted`` the
+    uplift (steps, supports).
     """
     own, supports = sensors.sensitivity(name), begun.overhead.supports
     force = tuple(np.sum([own.contact_force(m) for m in c.meters], axis=0) for c in begun.collectors)
