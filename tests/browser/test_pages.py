@@ -9,7 +9,7 @@ from helpers import some
 
 WIDE, NARROW = (1200, 900), (400, 800)
 #: Those that have what others have too.
-SLOW = ("train", "indices")
+SLOW = ("train", "indices", "long_names", "calibration")
 #: Grey of the page's ground in the dark, 0 to 255.
 GROUND = 23
 
@@ -47,7 +47,7 @@ def test_everybody_can_read_it(browser, tmp_path, name):
 
 
 @pytest.mark.parametrize("name", ["study", "long_names"])
-@pytest.mark.parametrize("width", [1200, 1600])
+@pytest.mark.parametrize("width", some([1200, 1600]))
 def test_tables_take_the_room_that_there_is(browser, tmp_path, name, width):
     """None is cut while the window is wide enough for it."""
     page = html_pages.written(name, tmp_path)

@@ -63,7 +63,7 @@ class TestFlatViews:
         shown.tab.close()
 
     @pytest.mark.parametrize(
-        "size", [(900, 560), pytest.param((1200, 700), marks=pytest.mark.slow), (1200, 480)]
+        "size", [(900, 560), *(pytest.param((1200, y), marks=pytest.mark.slow) for y in (700, 480))]
     )
     def test_title_of_the_axis_is_whole(self, browser, tmp_path, view, size):
         shown = opened(browser, tmp_path, hung(view, 1.2), size)

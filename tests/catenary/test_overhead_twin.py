@@ -30,6 +30,7 @@ from ancf.catenary import (
     statistics,
     verify,
 )
+from helpers import some
 from overhead_lines import COARSE, STAGGER, STEP, TOML, collector, droppers, short_line
 
 G = 9.81
@@ -266,7 +267,7 @@ class TestUplift:
 
     @pytest.mark.parametrize(
         ("broken", "label", "stagger"),
-        [("2-10", "3-1", 0.0), ("2-9", "3-1", STAGGER), ("2-10", "3-2", STAGGER), ("3-1", "2-7", 0.0)],
+        some([("2-10", "3-1", 0.0), ("2-9", "3-1", STAGGER), ("2-10", "3-2", STAGGER), ("3-1", "2-7", 0.0)]),
     )
     def test_derivatives_are_those_of_the_higher_wire(self, broken, label, stagger):
         """They were those of the left wire. Differences of runs of changed models, whose rest is exact."""

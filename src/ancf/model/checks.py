@@ -184,7 +184,8 @@ def curve(value: object, where: str) -> FloatArray:
 def vector(value: object, where: str) -> FloatArray:
     """Three finite numbers."""
     if isinstance(value, int | float) and not isinstance(value, bool):
-        what, along = f"must be a list of three numbers, is {shown(value)}", shown(value)
+        what = f"must be a list of three numbers, is {shown(value)}"
+        along = f"{value:g}" if isinstance(value, float) else shown(value)  # an int may be beyond all floats
         raise ModelError(where, what, f"along z it is (0, 0, {along})")
     return array(value, where, (3,))
 

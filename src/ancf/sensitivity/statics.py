@@ -20,6 +20,7 @@ from .base import matrices_of, moved_with
 from .family import Family
 from .leaning import Leaning
 from .nearby import Nearby
+from .remembering import friction_of
 from .values import Push
 
 #: Residual of the equations, relative to their right-hand side, that is aimed at and that is accepted; part
@@ -64,7 +65,8 @@ def of_equilibrium(
     place_supports(core.supports, core.loads.value, tables, 0, q, zero, zero.copy())
     solve, stiff = _solver(system, core, q, friction)
     found, left = [], np.setdiff1d(core.supports.held, system.held)
-    plain = {} if friction is not None else _plainly(system, core, q, families, (time - h, h, time, np.inf))
+    leans = friction is not None or friction_of(system)  # whose forces at rest batches alone do not tell
+    plain = {} if leans else _plainly(system, core, q, families, (time - h, h, time, np.inf))
     for k, family in enumerate(families):
         family.know(system)
         push = plain[k] if k in plain else family.at_rest(core, q, (time, h))
