@@ -98,6 +98,11 @@ def take_measured_slopes(batch, q, v, dq, dv, out):
     raise TypeError(f"{type(batch).__name__} does not know the slopes of what it measures")
 
 
+def add_measured_work(batch, q, v, y, by_q, by_v):
+    """Add the derivatives of y . measured by the state, y for what is measured (``measure``) in its order."""
+    raise TypeError(f"{type(batch).__name__} does not know the slopes of what it measures")
+
+
 #: Operations that only sensitivities ask for, by their names in :func:`implements`.
 OF_SENSITIVITIES: dict[str, Any] = {
     "rate_stiffness": add_rate_stiffness,
@@ -115,4 +120,5 @@ OF_SENSITIVITIES: dict[str, Any] = {
     "memory_work": take_memory_work,
     "memory_back": take_memory_back,
     "measured_slopes": take_measured_slopes,
+    "measured_work": add_measured_work,
 }

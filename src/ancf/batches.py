@@ -27,6 +27,7 @@ from .compiled import (
     add_force,
     add_force_slopes,
     add_inertia,
+    add_measured_work,
     add_memory_changes,
     add_memory_slopes,
     add_number_work,
@@ -57,7 +58,7 @@ _COLUMNS = 1 + len(OPERATIONS)
 _NONE = np.zeros((0, _COLUMNS), dtype=np.int64)
 FORCE, INERTIA, TANGENT, ENERGY, EVENT, INVERTED, MEASURE, REMEMBER = range(1, 9)
 RATES, NUMBERS, WORKS, SLOPES, ALONG, BESIDE, CHANGES, PRODUCTS = range(9, 17)
-CHOICE, REMEMBERED, KEEPING, OWN_CHANGES, MEMORY_WORK, MEMORY_BACK, MEASURED = range(17, _COLUMNS)
+CHOICE, REMEMBERED, KEEPING, OWN_CHANGES, MEMORY_WORK, MEMORY_BACK, MEASURED, METERS = range(17, _COLUMNS)
 #: Operations compiled for those who ask for them, see :mod:`ancf.solvers.rare`, and their columns.
 RARE = {
     measure: MEASURE,
@@ -76,6 +77,7 @@ RARE = {
     take_memory_work: MEMORY_WORK,
     take_memory_back: MEMORY_BACK,
     take_measured_slopes: MEASURED,
+    add_measured_work: METERS,
 }
 
 

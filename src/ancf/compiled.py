@@ -23,6 +23,7 @@ from . import kept, kernel_cache
 from .asked import OF_SENSITIVITIES
 from .asked import add_changes as add_changes
 from .asked import add_force_slopes as add_force_slopes
+from .asked import add_measured_work as add_measured_work
 from .asked import add_memory_changes as add_memory_changes
 from .asked import add_memory_slopes as add_memory_slopes
 from .asked import add_number_work as add_number_work

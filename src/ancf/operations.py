@@ -12,6 +12,7 @@ from .compiled import (
     add_force,
     add_force_slopes,
     add_inertia,
+    add_measured_work,
     add_memory_changes,
     add_memory_slopes,
     add_number_work,
@@ -168,6 +169,12 @@ def measured_slopes_at(record, q, v, dq, dv, out):
 
 
 @separate_kernel
+def measured_work_at(record, q, v, y, by_q, by_v):
+    """``add_measured_work`` of the batch at an address."""
+    add_measured_work(record, q, v, y, by_q, by_v)
+
+
+@separate_kernel
 def tangent_work_at(record, q, v, x, by_q, by_v, by_a, ws):
     """``add_tangent_work`` of the batch at an address."""
     add_tangent_work(record, q, v, x, by_q, by_v, by_a, ws)
@@ -201,4 +208,5 @@ OPERATIONS: dict[Any, tuple[Any, tuple[Any, ...], Any]] = {
     take_memory_work: (memory_work_at, (_V, _V, _V, _V, _V), types.none),
     take_memory_back: (memory_back_at, (_V, _V, _V, _V, _V, _V, _V), types.none),
     take_measured_slopes: (measured_slopes_at, (_V, _V, _V, _V, _V), types.none),
+    add_measured_work: (measured_work_at, (_V, _V, _V, _V, _V), types.none),
 }

@@ -5,8 +5,8 @@ import pytest
 
 import ancf
 from ancf.batches import measure_all
-from ancf.compiled import kernel, measure, take_measured_slopes
-from ancf.solvers.rare import knowing, take_measured_slopes_of
+from ancf.compiled import add_measured_work, kernel, measure, take_measured_slopes
+from ancf.solvers.rare import add_measured_work_of, knowing, take_measured_slopes_of
 from ancf.system.system import System
 from sloped import at_time, check_beside, check_slopes
 from strained import states
@@ -108,6 +108,11 @@ def slopes_of_measured(batches, q, v, dq, dv, out):
     take_measured_slopes_of(batches, 0, q, v, dq, dv, out)
 
 
+@kernel
+def work_of_measured(batches, q, v, y, by_q, by_v):
+    add_measured_work_of(batches, 0, q, v, y, by_q, by_v)
+
+
 @pytest.mark.parametrize("height", [0.2, -0.4], ids=["pushes", "apart"])
 @pytest.mark.parametrize("damping", [0.0, 40.0])
 def test_of_what_contacts_measure(height, damping):
@@ -119,7 +124,8 @@ def test_of_what_contacts_measure(height, damping):
         model.add_contact(head, along=wire, stiffness=5e3, damping=damping, **strip)
     system, (q, v, _), _ = moved(model, 2)
     batch, rng = system.parts["contacts"], np.random.default_rng(4)
-    batches, found, step = knowing(take_measured_slopes, [batch], measure), np.zeros((2, 4)), 1e-5
+    batches = knowing(take_measured_slopes, [batch], measure, add_measured_work)
+    found, step = np.zeros((2, 4)), 1e-5
     for _ in range(5):
         dq, dv = rng.uniform(-1, 1, (2, system.size))
         slopes_of_measured(batches, q, v, dq, dv, found.reshape(-1))
@@ -130,6 +136,10 @@ def test_of_what_contacts_measure(height, damping):
         assert np.all((found[:, 0] != 0.0) == (height == 0.2))
         size = np.maximum(np.max(np.abs(wanted), axis=0), 1.0)
         assert np.max(np.abs(found - wanted) / size) < 3e-8
+        y, by = rng.uniform(-1, 1, 8), np.zeros((2, system.size))  # the other way round it is the same sum
+        work_of_measured(batches, q, v, y, *by)
+        own = found.reshape(-1)
+        assert by[0] @ dq + by[1] @ dv == pytest.approx(y @ own, abs=1e-12 * np.sum(np.abs(y * own)))
 
 
 @kernel

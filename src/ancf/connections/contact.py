@@ -29,7 +29,12 @@ from ..compiled import Role, implements, inline_kernel, kernel
 from ..vectors import dot
 from .carrier import COLUMNS, line, shape
 from .contact_along import contact_slopes_along
-from .contact_slopes import contact_measured_slopes, contact_number_work, contact_work_slopes
+from .contact_slopes import (
+    contact_measured_slopes,
+    contact_measured_work,
+    contact_number_work,
+    contact_work_slopes,
+)
 from .contact_touch import ARC, ASIDE, DAMPING, FORCE, OVERLAP, STIFFNESS, add_row, touch
 from .in_matrix import no_pairs, no_places
 
@@ -135,6 +140,7 @@ implements(
     slopes_beside=contact_slopes_along,
     work_slopes=contact_work_slopes,
     measured_slopes=contact_measured_slopes,
+    measured_work=contact_measured_work,
     number_work=contact_number_work,
     numbers=lambda batch: batch.data.ravel(),
     numbered=("data",),

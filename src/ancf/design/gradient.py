@@ -13,15 +13,17 @@ from ..analysis import equilibrium, simulate
 from ..arrays import FloatArray, IntArray
 from ..errors import ModelError
 from ..model import checks
+from ..model.contact import Contact
 from ..model.joints import Slide
 from ..model.kinds import kind_of
 from ..model.model import Model
 from ..model.points import Point
 from ..preparation import method_of, prepared
 from ..results.state import State
-from ..sensitivity.adjoint import Adjoint, Key, UnsolvedError
+from ..sensitivity.adjoint import Adjoint, UnsolvedError
 from ..sensitivity.adjoint_joints import adjoint_of
 from ..sensitivity.answers import Face
+from ..sensitivity.objective import Key, is_metered, touched_by
 from ..sensitivity.parameters import Parameter, parameters_of
 from ..system.sensors import listing
 from ..system.system import System
@@ -154,9 +156,9 @@ def check_has_derivative(formula: Formula) -> None:
 
 
 def _asks_contacts(model: Model, formula: Formula) -> bool:
-    """Whether a formula asks for numbers of contacts, which depend on all of what may touch."""
+    """Whether a formula asks for numbers of contacts, which depend on all that may touch; not of strips."""
     items = [model.sensor(item) for _, item in formula.asked]
-    return any(not isinstance(item, Point) and "contact" in kind_of(item).word for item in items)
+    return any(not isinstance(item, Point | Contact) and "contact" in kind_of(item).word for item in items)
 
 
 class Histories:
@@ -194,17 +196,19 @@ def _forward(
     return value, made
 
 
-def unknowns_of(system: System, pairs: list[Key]) -> IntArray:
-    """Entries of the state vectors on which histories depend; those of sliding joints on their carriers."""
-    items = [system.model.sensor(item) for _, item in pairs]
-    twisted = (item for (asked, _), item in zip(pairs, items, strict=True) if asked == "twist")
-    behind = [point for item in twisted for point in _between(item)]
-    found = [listing(system, [*items, *behind], False, ends=True).index]
-    slides = [item for item in system.model.connections if isinstance(item, Slide)]
-    for (asked, _), item in zip(pairs, items, strict=True):
-        if asked not in ALONG_CARRIER or not isinstance(item, Slide):
-            continue
-        batch, j = system.parts["slides"], slides.index(item)
+def unknowns_of(system: System, pair: Key) -> IntArray:
+    """Entries of the state vectors on which a history depends; of a sliding joint its carrier's too."""
+    quantity, item = pair[0], system.model.sensor(pair[1])
+    if is_metered(system, pair):
+        return touched_by(system, pair[1])
+    behind = _between(item) if quantity == "twist" else []
+    found = [listing(system, [item, *behind], False, ends=True).index]
+    if quantity in ALONG_CARRIER and isinstance(item, Slide):
+        batch, slides = (
+            system.parts["slides"],
+            [one for one in system.model.connections if isinstance(one, Slide)],
+        )
+        j = slides.index(item)
         slots = np.unique(batch.line_slot[batch.first[j] : batch.first[j + 1]])
         found.append((slots[slots >= 0, None] + np.arange(3)).ravel())
     return np.unique(np.concatenate(found)).astype(np.int64)
@@ -222,12 +226,12 @@ def _backward(
     way: type[Adjoint], made: Any, formula: Formula, parameters: list[Parameter], start: State | None
 ) -> tuple[float, dict[str, float]]:
     pairs = list(dict.fromkeys(formula.asked))
-    unknowns = unknowns_of(made.system, pairs)
+    unknowns = {pair: unknowns_of(made.system, pair) for pair in pairs}
 
     def asked(face: Face, pairs: Iterable[Key]) -> dict[Key, FloatArray]:
         return {pair: np.asarray(ask(face, *pair)) for pair in pairs}
 
-    run = way(made, parameters, start, asked, pairs, unknowns, "gradient")
+    run = way(made, parameters, start, asked, unknowns, "gradient")
     t, found = run.forwards()
     value, slopes = gradient_of(formula, Histories(t, found))
     total = run.backwards({pair: slopes[pair] for pair in pairs})

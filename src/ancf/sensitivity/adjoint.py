@@ -7,12 +7,12 @@ bit, and the adjoint goes back through them (:mod:`ancf.solvers.adjoint`).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 
-from ..arrays import FloatArray
+from ..arrays import FloatArray, IntArray
 from ..errors import SolveError
 from ..preparation import Prepared
 from ..results.state import State
@@ -24,7 +24,6 @@ from ..solvers.sensitivity import Way, accelerations
 from ..solvers.status import OK
 from ..system.core import follow_supports
 from ..system.system import System
-from .answers import LINEAR, Face
 from .base import check_differentiable, matrices_of
 from .blocks import Block, Collector
 from .family import Family
@@ -32,6 +31,7 @@ from .follow import Trail, check_method, given_start, when_cut
 from .jumps import end_at_jumps
 from .memory_back import MemoryBack
 from .nearby import Nearby
+from .objective import Asked, Key, Objective
 from .parameters import Parameter
 from .remembering import friction_of
 from .start import Start
@@ -39,18 +39,6 @@ from .weighed import Weighed
 
 #: Bytes of states up to which all are kept and no step is taken again, and those of a block.
 KEPT, BLOCK = 320e6, 8e6
-#: Change of an unknown, in its own size, of the differences of what is asked; and of what has no smooth zero,
-#: as the size of a bend has none.
-MOVED, FINELY = 1e-4, 1e-6
-FINE = {"curvature", "bending_moment"}
-#: Answers that nothing but the state and the shape functions has a part in.
-SHAPES = ("position", "velocity", "slope")
-PLACES = ((-2.0, 1 / 12), (-1.0, -8 / 12), (1.0, 8 / 12), (2.0, -1 / 12))
-
-#: A question: a quantity and of what.
-Key = tuple[str, str]
-#: ``asked(face, keys)``: the histories of these questions, by key, of states (n, size).
-Asked = Callable[[Face, Iterable[Key]], dict[Key, FloatArray]]
 
 
 class UnsolvedError(SolveError):
@@ -71,10 +59,8 @@ class Adjoint:
     start : State or None
     asked : function
         How histories are found, see ``Asked``.
-    keys : list of (str, str)
-        On which the number depends.
-    unknowns : (k,) array
-        Entries of the state vectors on which that depends.
+    unknowns : mapping
+        By the questions on which the number depends the entries of the state vectors on which these do.
     """
 
     def __init__(
@@ -83,8 +69,7 @@ class Adjoint:
         parameters: list[Parameter],
         start: State | None,
         asked: Asked,
-        keys: list[Key],
-        unknowns: Any,
+        unknowns: Mapping[Key, IntArray],
         where: str,
     ) -> None:
         self._check(made, start, where)
@@ -101,9 +86,8 @@ class Adjoint:
         self._check_memory(start)
         self.ahead = ahead_of(self.system.core, self.m)
         self.given = given_start(self.families, self.run.t_start, self.system, start, where)
-        self.asked, self.keys, self.unknowns = asked, keys, np.unique(unknowns)
-        self._linear = self._of_units([key for key in keys if key[0] in LINEAR])
-        self._sums: dict[Key, Any] = {}  # of states with the derivatives by linear answers, (2, c, size)
+        self.objective = Objective(self.system, self.families, asked, unknowns)
+        self.unknowns = self.objective.unknowns
         self._shifts: FloatArray | None = None  # factors of C of joints at the steps of a block, (n, size)
         self.blocks: list[Block] = []
         end_at_jumps(self.run, UnsolvedError)  # over these sensitivities go forwards
@@ -138,7 +122,7 @@ class Adjoint:
         t, q, v = store.taken()
         self.first = q[0].copy(), v[0].copy(), run.memory.a.copy()
         self.begun = self.memory.keep(run) if self.memory else {}
-        times, found = [t], [self._asked(q, v)]
+        times, found = [t], [self.objective.histories(q, v)]
         keep = 24.0 * size * run.steps <= KEPT
         most = max(1, min(int(BLOCK / (8 * size * (6 * len(self.nearby.others) + 12))), run.steps))
         if not keep:
@@ -153,7 +137,7 @@ class Adjoint:
             if keep:
                 block.kept = q, v, trail, run.memory.a.copy()
             times.append(t)
-            found.append(self._asked(q, v))
+            found.append(self.objective.histories(q, v))
             self.blocks.append(block)
         self.t = np.concatenate(times)
         return self.t, {key: np.concatenate([one[key] for one in found]) for key in found[0]}
@@ -175,7 +159,7 @@ class Adjoint:
             rows = slice(block.done + 1, block.done + block.count + 1)
             own = {key: slope[rows] for key, slope in slopes.items()}
             way = self._way(block)
-            wanted = self._wanted(way.q, way.v, own)
+            wanted = self.objective.wanted(way.q, way.v, own)
             when = run.time(block.done), block.h, run.t_start, run.t_end
             lam = room[: len(way.q)]
             tables = system.inputs.tables(*when[:2], block.count, *when[2:])
@@ -188,7 +172,7 @@ class Adjoint:
             still[self.unknowns] += np.sum(wanted[:, 0], axis=0)
             self._add_axes(way, wanted, turned)
             total += self._pushed(way, when, tables, wanted, lam, turned)
-            total += self._explicit(way.q, way.v, own)
+            total += self.objective.explicit(way.q, way.v, own)
             block.kept = None
         total += self._of_start({key: slope[:1] for key, slope in slopes.items()}, mu, still)
         for k, shift in self.nearby.shifts.items():
@@ -236,7 +220,7 @@ class Adjoint:
         """What parameters do to the start; ``still`` is added to."""
         run, system = self.run, self.system
         first = self.first
-        wanted = self._wanted(first[0][None].copy(), first[1][None].copy(), slopes)
+        wanted = self.objective.wanted(first[0][None].copy(), first[1][None].copy(), slopes)
         when = (run.t_start - run.h, run.h, run.t_start, run.t_end)
         if self.memory:
             way, tables = Way(*(x[None].copy() for x in first)), system.inputs.tables(*when[:2], 1, *when[2:])
@@ -248,7 +232,9 @@ class Adjoint:
             total += self.memory.of_start(len(total))
         total -= self.weighed.in_all(when, system.inputs.tables(*when[:2], 1, *when[2:]))
         total += [float(mu[0] @ dq + mu[1] @ dv) for dq, dv in self.given]
-        return total + self._explicit(first[0][None], first[1][None], slopes) + self._of_sums()
+        return (
+            total + self.objective.explicit(first[0][None], first[1][None], slopes) + self.objective.of_sums()
+        )
 
     def _back_start(
         self,
@@ -296,85 +282,3 @@ class Adjoint:
         accelerations(v, block.h, self.run.scheme, trail.before, a)
         a[-1] = end
         return Way(q, v, a)
-
-    def _asked(self, q: FloatArray, v: FloatArray) -> dict[Any, FloatArray]:
-        return self.asked(Face(self.system, q, v, 0.0), self.keys)
-
-    def _of_units(self, keys: list[Key]) -> dict[Key, FloatArray]:
-        """Answers that are linear in the state, of each unknown as q and as v on its own, (2, k, ...)."""
-        k, size = len(self.unknowns), self.system.size
-        units = np.zeros((2, 2, k, size))
-        for i in range(2):
-            units[i, i, np.arange(k), self.unknowns] = 1.0
-        q, v = units.reshape(2, 2 * k, size)
-        found = self.asked(Face(self.system, q, v, 0.0), keys)
-        return {key: made.reshape(2, k, -1) for key, made in found.items()}
-
-    def _explicit(self, q: FloatArray, v: FloatArray, slopes: dict[Any, FloatArray]) -> FloatArray:
-        """What parameters do to the answers of fixed states; of linear ones these are summed up."""
-        total, here = np.zeros(len(self.families)), None
-        others = [key for key in slopes if key not in self._linear]
-        for key in self._linear:
-            weights = slopes[key].reshape(len(q), -1).T
-            self._sums[key] = self._sums.get(key, 0.0) + np.stack([weights @ q, weights @ v])
-        for k, system, weight in self._others() if others else ():
-            here = self.asked(Face(self.system, q, v, 0.0), others) if here is None else here
-            found = self.asked(Face(system, q, v, 0.0, base=self.system), others)
-            total[k] += weight * float(sum(np.sum(slopes[key] * (found[key] - here[key])) for key in others))
-        return total
-
-    def _of_sums(self) -> FloatArray:
-        """What parameters do to linear answers of all states: each component of that of its own sum."""
-        total = np.zeros(len(self.families))
-
-        def answers(system: System) -> float:
-            base, each = self.system, self._sums.items()
-            faces = ((key, Face(system, s[0], s[1], 0.0, base=base)) for key, s in each)
-            found = (self.asked(face, [key])[key] for key, face in faces)
-            return float(sum(np.trace(made.reshape(len(made), -1)) for made in found))
-
-        here = answers(self.system)
-        for k, system, weight in self._others():
-            total[k] += weight * (answers(system) - here)
-        return total
-
-    def _others(self) -> Iterator[tuple[int, System, float]]:
-        """Systems around parameters that may answer otherwise, their weights and the numbers of these."""
-        shapes = all(key[0] in SHAPES for key in self.keys)
-        for k, family in enumerate(self.families):
-            acts = family.parameter.acts
-            if acts is None or acts.shapes or not shapes:
-                each = zip(family.systems, family.weights, strict=True)
-                yield from ((k, system, weight) for system, weight in each if system is not self.system)
-
-    def _wanted(self, q: FloatArray, v: FloatArray, slopes: dict[Any, FloatArray]) -> FloatArray:
-        """Those of the number by the unknowns of states (n, size), (n, 2, k), from those by the answers."""
-        made = np.zeros((len(q), 2, len(self.unknowns)))
-        for key, units in self._linear.items():
-            slope = slopes[key].reshape(len(q), -1)
-            made += (slope @ units.reshape(-1, slope.shape[1]).T).reshape(made.shape)
-        others = [key for key in slopes if key not in self._linear]
-        fine = [key for key in others if key[0] in FINE]
-        for keys, moved in (([key for key in others if key not in fine], MOVED), (fine, FINELY)):
-            if keys:
-                self._add_wanted(q, v, {key: slopes[key] for key in keys}, moved, made)
-        return made
-
-    def _add_wanted(
-        self, q: FloatArray, v: FloatArray, slopes: dict[Any, FloatArray], moved: float, made: FloatArray
-    ) -> None:
-        """Add those by answers that are differentiated by differences."""
-        keys = list(slopes)
-        weight = np.ones(q.shape[1])
-        weight[: self.system.n] = self.system.core.weight
-        here = self.asked(Face(self.system, q, v, 0.0), keys)  # what does not change leaves no round-off
-        for k, x in enumerate((q, v)):
-            for n, i in enumerate(self.unknowns.tolist()):
-                e, before = moved / (weight[i] if weight[i] > 0.0 else 1.0), x[:, i].copy()
-                for place, w in PLACES:
-                    x[:, i] = before + place * e
-                    found = self.asked(Face(self.system, q, v, 0.0), keys)
-                    for key in keys:
-                        change = (w / e * slopes[key] * (found[key] - here[key])).reshape(len(q), -1)
-                        made[:, k, n] += change.sum(axis=1)
-                x[:, i] = before

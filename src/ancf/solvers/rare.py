@@ -18,6 +18,7 @@ from ..batches import (
     MEASURED,
     MEMORY_BACK,
     MEMORY_WORK,
+    METERS,
     NUMBERS,
     OWN_CHANGES,
     PRODUCTS,
@@ -33,6 +34,7 @@ from ..batches import (
 from ..compiled import (
     add_changes,
     add_force_slopes,
+    add_measured_work,
     add_memory_changes,
     add_memory_slopes,
     add_number_work,
@@ -56,7 +58,7 @@ _changes, _products = caller_of(add_changes), caller_of(add_tangent_work)
 _choose, _memory_slopes = caller_of(choose_memory), caller_of(add_memory_slopes)
 _along_memory, _memory_changes = caller_of(remember_along), caller_of(add_memory_changes)
 _memory_work, _memory_back = caller_of(take_memory_work), caller_of(take_memory_back)
-_measured = caller_of(take_measured_slopes)
+_measured, _meters = caller_of(take_measured_slopes), caller_of(add_measured_work)
 
 
 def knowing(stub: Any, batches: Iterable[Any], *others: Any) -> Batches:
@@ -190,3 +192,10 @@ def take_measured_slopes_of(batches, k, q, v, dq, dv, out):
     """``take_measured_slopes`` of one of the :class:`Batches`."""
     table = batches.table
     _measured(table[k, MEASURED], table[k, 0], (q, v, dq, dv, out))
+
+
+@inline_kernel
+def add_measured_work_of(batches, k, q, v, y, by_q, by_v):
+    """``add_measured_work`` of one of the :class:`Batches`."""
+    table = batches.table
+    _meters(table[k, METERS], table[k, 0], (q, v, y, by_q, by_v))

@@ -13,12 +13,12 @@ import numpy as np
 
 from ..arrays import FloatArray, IntArray
 from ..batches import Batches, measure_all
-from ..compiled import does_something, formula, kernel, measure, take_measured_slopes
+from ..compiled import add_measured_work, does_something, formula, kernel, measure, take_measured_slopes
 from ..contact.rubbed import RUBBED
 from ..records import recorded
 from ..system.core import residual
 from ..system.system import System
-from .rare import knowing, take_measured_slopes_of
+from .rare import add_measured_work_of, knowing, take_measured_slopes_of
 
 
 @recorded
@@ -183,3 +183,36 @@ def measured_slopes(
             take_measured_slopes_of(known.batches, k, q[m], v[m], d[m, 0], d[m, 1], own)
         for i in range(entries.shape[0]):
             out[m, first + i] += known.slopes[entries[i]]
+
+
+class Meters(NamedTuple):
+    """A batch that knows the slopes of what it measures the other way round."""
+
+    batches: Batches
+
+
+def meters_of(system: System, name: str) -> Meters:
+    """The batch of a system of this name."""
+    return Meters(knowing(add_measured_work, [system.parts[name]]))
+
+
+@kernel
+def measured_works(
+    meters: Meters,
+    q: FloatArray,
+    v: FloatArray,
+    weights: FloatArray,
+    unknowns: IntArray,
+    by: FloatArray,
+    out: FloatArray,
+) -> None:
+    """Add the derivatives of weights (n, m) . measured by these entries of states (n, size) to out (n, 2, k).
+
+    ``by``: (2, size), room of zeros.
+    """
+    for m in range(q.shape[0]):
+        add_measured_work_of(meters.batches, 0, q[m], v[m], weights[m], by[0], by[1])
+        for k in range(unknowns.shape[0]):
+            for i in range(2):
+                out[m, i, k] += by[i, unknowns[k]]
+                by[i, unknowns[k]] = 0.0
