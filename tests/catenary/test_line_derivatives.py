@@ -86,6 +86,26 @@ def test_statistics_of_a_run(line):
     assert found["uplift"] == pytest.approx(differences["uplift"], rel=1e-2)
 
 
+@pytest.mark.parametrize(
+    ("given", "off"), [({"contact_stiffness": 50e3}, 1e-5), ({}, 3e-4)], ids=["on a spring", "rigid"]
+)
+@pytest.mark.filterwarnings("ignore::UserWarning")
+def test_statistics_with_a_sliding_joint(line, given, off):
+    """Its force is a multiplier that only pushes; that of a rigid one is 1e-5 off at single steps."""
+    newton = ancf.Newton(tolerance=1e-12, modified=False)
+    method = ancf.GeneralizedAlpha(0.5, formulation="index2", newton=newton)
+    settings = RUN | {"contact": "joint", "integrator": method} | given
+    done = catenary.run(longer(line, "2-2", 0.0), sensitivities={"a": ["2-2"]}, **settings)
+    found = catenary.slopes(done)["a"]
+
+    def numbers(by):
+        statistics = catenary.statistics(catenary.run(longer(line, "2-2", by), **settings))
+        return np.array([statistics[key].value for key in KEYS[:2]])
+
+    differences = (numbers(4e-6) - numbers(-4e-6)) / 8e-6
+    assert np.array([found[key] for key in KEYS[:2]]) == pytest.approx(differences, rel=off)
+
+
 class TestBadInput:
     @pytest.mark.parametrize(
         ("given", "told"),
@@ -101,6 +121,12 @@ class TestBadInput:
     def test_parameters(self, line, given, told):
         with pytest.raises(ancf.ModelError, match=told):
             catenary.run(line, mesh=MESH, sensitivities=given, **RUN)
+
+    @pytest.mark.parametrize("integrator", [None, ancf.GeneralizedAlpha(0.5, formulation="ggl")])
+    def test_joints_whose_force_has_none_with_ggl(self, line, integrator):
+        settings = RUN | {"contact": "joint", "integrator": integrator}
+        with pytest.raises(ancf.ModelError, match=r"up to 10 % off.*penalty"):
+            catenary.run(line, mesh=MESH, sensitivities={"a": ["2-2"]}, **settings)
 
     @pytest.mark.filterwarnings("ignore::UserWarning")
     def test_springs_that_the_droppers_relax(self, line):

@@ -117,7 +117,7 @@ def parameters(overhead: Assembled, model: ancf.Model, given: Mapping[str, Seque
     return made
 
 
-def check_run(plan: Plan, given: Any, controller: Any) -> None:
+def check_run(plan: Plan, given: Any, controller: Any, integrator: Any) -> None:
     """Raise ModelError for runs that have no derivatives by lengths of droppers."""
     if not isinstance(given, Mapping):
         raise ModelError(WHERE, f"must be a mapping, is {checks.shown(given)}", '{"first": ["6-1", "7-1"]}')
@@ -125,6 +125,9 @@ def check_run(plan: Plan, given: Any, controller: Any) -> None:
         raise ModelError(WHERE, "a controller has no derivatives", "give one of both")
     if not hasattr(plan.form.line, "dropper_span"):
         raise ModelError(WHERE, "a route has none", "take one of its tension lengths")
+    if plan.touch.kind == "joint" and getattr(integrator, "formulation", "ggl") == "ggl":
+        hint = 'contact="penalty", or integrator=ancf.GeneralizedAlpha(0.5, formulation="index2")'
+        raise ModelError(WHERE, 'with "ggl" those of a sliding joint\'s force would be up to 10 % off', hint)
     for unit in plan.pantographs:
         if unit.relaxed_at != "nominal" and unit.slopes()[0] > 0.0:
             what = (
@@ -160,7 +163,7 @@ def records(sensors: Any, begun: Any, name: str, rest: Any, lifted: FloatArray) 
     uplift (steps, supports).
     """
     own, supports = sensors.sensitivity(name), begun.overhead.supports
-    force = tuple(np.sum([own.contact_force(m) for m in c.meters], axis=0) for c in begun.collectors)
+    force = tuple(np.sum(_forces(sensors, own, c), axis=0) for c in begun.collectors)
 
     def risen(point: Point) -> FloatArray:
         rate: FloatArray = own.position(point)[:, 2] - float(rest.position(point)[2])
@@ -171,6 +174,15 @@ def records(sensors: Any, begun: Any, name: str, rest: Any, lifted: FloatArray) 
         first = sensors.position(supports[k])[:, 2] - begun.rest.height[k]
         uplift[:, k] = np.where(lifted[:, k] > first, risen(point), uplift[:, k])
     return RunSlopes(force, uplift)
+
+
+def _forces(sensors: Any, own: Any, collector: Any) -> list[FloatArray]:
+    """Derivatives of the forces of all contacts of a pantograph, of joints those of multipliers that push."""
+    if not collector.slides:
+        return [own.contact_force(meter) for meter in collector.meters]
+    pushing = (sensors.multiplier(touch)[:, 2] > 0.0 for touch in collector.touches)
+    rates = (own.multiplier(touch)[:, 2] for touch in collector.touches)
+    return [np.where(on, rate, 0.0) for on, rate in zip(pushing, rates, strict=True)]
 
 
 def slopes(run: Run, pantograph: int = 0, filter: Butterworth | None = None) -> dict[str, dict[str, float]]:

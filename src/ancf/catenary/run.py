@@ -170,7 +170,7 @@ def run(
     _warn(cautions.before(plan))
     plan = relaxed(plan, sleeps)
     if sensitivities:
-        check_run(plan, sensitivities, controller)
+        check_run(plan, sensitivities, controller, integrator)
     if controller is None:
         for key, value in (("control_step", control_step), ("control_delay", control_delay or None)):
             if value is not None:
