@@ -15,6 +15,7 @@ from .elasticity import Elasticity, elasticity
 from .fittings import DropperErrors, Droppers, Load, SteadyArm, Tensioner
 from .form import Form
 from .galloping import Galloping, galloping
+from .gradient import gradient
 from .identify import Identified, dynamic_stiffness, identify_pantograph
 from .irregular import dropper_errors, height_errors
 from .kept import Kept, read_run
@@ -99,6 +100,7 @@ __all__ = [
     "find_pantograph",
     "form",
     "galloping",
+    "gradient",
     "height_errors",
     "identify_pantograph",
     "line_file",

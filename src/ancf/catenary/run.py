@@ -151,20 +151,23 @@ def run(
         chatters.
     """
     checks.progress(progress, "run.progress")
-    shape = formed(line, mesh)
-    plan = make_plan(
-        shape,
-        make_travel(speed),
-        pantograph,
-        spacing,
-        start,
-        window,
-        until,
-        Touch(contact, contact_stiffness, contact_damping),
-        step,
-        Door.of(line, shape, modify, broken_droppers, "run"),
-        roof,
-        underside,
+    plan = planned(
+        line,
+        speed=speed,
+        pantograph=pantograph,
+        spacing=spacing,
+        start=start,
+        window=window,
+        until=until,
+        contact=contact,
+        contact_stiffness=contact_stiffness,
+        contact_damping=contact_damping,
+        step=step,
+        mesh=mesh,
+        modify=modify,
+        roof=roof,
+        underside=underside,
+        broken_droppers=broken_droppers,
     )
     sleeps = sleeping.allowed(reduce, integrator, touch=plan.touch.kind, derived=bool(sensitivities))
     _warn(cautions.before(plan))
@@ -181,9 +184,36 @@ def run(
         {} if controller is None else {"controller": controller, "control_step": control_step}
     )
     stored: dict[str, Any] = {"output_step": output_step, "file": file}
-    done = _simulated(plan, integrator, progress, sensitivities=sensitivities, sleeps=sleeps, **stored, **led)
+    done = simulated(plan, integrator, progress, sensitivities=sensitivities, sleeps=sleeps, **stored, **led)
     _warn(cautions.after(done))
     return done
+
+
+def planned(
+    line: Line | Route | AnyForm | Assembled | str | Path,
+    *,
+    speed: Speed,
+    pantograph: Any,
+    spacing: Any,
+    start: float | None,
+    window: tuple[float, float] | None,
+    until: float | None,
+    contact: str,
+    contact_stiffness: float | None,
+    contact_damping: float,
+    step: float,
+    mesh: Mesh | None,
+    modify: Callable[[Assembled], Any] | None,
+    roof: Any,
+    underside: Any,
+    broken_droppers: Sequence[str],
+) -> Plan:
+    """What is given to :func:`run`, checked."""
+    shape = formed(line, mesh)
+    touch = Touch(contact, contact_stiffness, contact_damping)
+    door = Door.of(line, shape, modify, broken_droppers, "run")
+    travel, own = make_travel(speed), (pantograph, spacing, start, window, until, touch, step, door)
+    return make_plan(shape, travel, *own, roof, underside)
 
 
 def _warn(texts: Iterator[str]) -> None:
@@ -203,7 +233,7 @@ def relaxed(plan: Plan, sleeps: bool) -> Plan:
         return plan
     mesh = plan.form if plan.door.given is not None else form(plan.form.line, TRIAL)
     trial = replace(plan, form=mesh, step=TRIAL_STEP)
-    done = _simulated(trial, None, None, sleeps=sleeps)
+    done = simulated(trial, None, None, sleeps=sleeps)
     raised = []
     for k, (unit, recording) in enumerate(zip(plan.pantographs, done.recordings, strict=True)):
         passing = (recording.position >= plan.window[0]) & (recording.position <= plan.window[1])
@@ -214,7 +244,7 @@ def relaxed(plan: Plan, sleeps: bool) -> Plan:
     return replace(plan, raised=raised, spent=done.cpu_seconds)
 
 
-def _simulated(
+def simulated(
     plan: Plan,
     integrator: Any,
     progress: Callable[[Any], None] | None,
@@ -224,6 +254,7 @@ def _simulated(
     sleeps: bool = False,
     **led: Any,
 ) -> Run:
+    """The run of a plan whose springs are relaxed where they have to be; keywords as of :func:`run`."""
     begun = ready(plan, active=bool(led), sleeps=sleeps, sensitivities=sensitivities)
     if callable(led.get("controller")):
         led["controller"] = Watched(led["controller"], begun.collectors)

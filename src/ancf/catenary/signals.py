@@ -84,19 +84,61 @@ class Butterworth:
         below = self.low_pass(x, rate, high)
         return self.high_pass(below, rate, low) if low else below
 
+    def band_back(
+        self, weights: FloatArray, rate: float, low: float = 0.0, high: float = CUT_OFF
+    ) -> FloatArray:
+        """Derivatives (n,) of ``weights @ band(x, rate, low, high)`` by x: the filters transposed."""
+        below = self._back(weights, rate, low, "highpass") if low else weights
+        return self._back(below, rate, high, "lowpass")
+
     def _pass(self, x: FloatArray, rate: float, cut_off: float, kind: Kind) -> FloatArray:
+        from scipy import signal
+
+        sections = self._sections(rate, cut_off, kind)
+        if self.zero_phase:
+            margin = _margin(len(x), rate, cut_off)
+            return np.asarray(signal.sosfiltfilt(sections, x, padlen=margin), dtype=np.float64)
+        state = signal.sosfilt_zi(sections) * x[0]
+        return np.asarray(signal.sosfilt(sections, x, zi=state)[0], dtype=np.float64)
+
+    def _back(self, weights: FloatArray, rate: float, cut_off: float, kind: Kind) -> FloatArray:
+        sections = self._sections(rate, cut_off, kind)
+        if not self.zero_phase:
+            return _once_back(sections, weights)
+        n, margin = len(weights), _margin(len(weights), rate, cut_off)
+        x = np.pad(weights, margin)
+        for _ in range(2):  # each pass is followed by a reversal
+            x = _once_back(sections, x[::-1])
+        # what is beyond the ends is 2 x_0 - x_k, or 2 x_n - x_(n-k)
+        before, made, behind = x[:margin], x[margin : margin + n].copy(), x[margin + n :]
+        made[0] += 2.0 * np.sum(before)
+        made[-1] += 2.0 * np.sum(behind)
+        made[1 : margin + 1] -= before[::-1]
+        made[n - 1 - margin : n - 1] -= behind[::-1]
+        return made
+
+    def _sections(self, rate: float, cut_off: float, kind: Kind) -> FloatArray:
         from scipy import signal
 
         if not 0 < cut_off < rate / 2:
             what = f"must be above 0 and below half the sample rate {rate:g} Hz, is {cut_off:g} Hz"
             raise ModelError("filter.cut_off", what, "take a shorter step")
-        sections = signal.butter(self.order, cut_off, kind, fs=rate, output="sos")
-        if self.zero_phase:
-            # one period of the cut-off beyond each end, mirrored, lets the start-up die out there
-            margin = min(len(x) - 1, int(np.ceil(rate / cut_off)))
-            return np.asarray(signal.sosfiltfilt(sections, x, padlen=margin), dtype=np.float64)
-        state = signal.sosfilt_zi(sections) * x[0]
-        return np.asarray(signal.sosfilt(sections, x, zi=state)[0], dtype=np.float64)
+        return np.asarray(signal.butter(self.order, cut_off, kind, fs=rate, output="sos"))
+
+
+def _margin(n: int, rate: float, cut_off: float) -> int:
+    """Samples beyond each end: one period of the cut-off, mirrored, lets the start-up die out there."""
+    return min(n - 1, int(np.ceil(rate / cut_off)))
+
+
+def _once_back(sections: FloatArray, weights: FloatArray) -> FloatArray:
+    """One pass transposed; it begins as if the first sample had been there for ever."""
+    from scipy import signal
+
+    made = np.asarray(signal.sosfilt(sections, weights[::-1])[::-1], dtype=np.float64).copy()
+    of_first = signal.sosfilt(sections, np.zeros(len(weights)), zi=signal.sosfilt_zi(sections))[0]
+    made[0] += float(weights @ of_first)
+    return made
 
 
 def filter_of(given: Butterworth | None, where: str) -> Butterworth:
