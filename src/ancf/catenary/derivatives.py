@@ -123,7 +123,7 @@ def check_run(plan: Plan, given: Any, controller: Any, integrator: Any) -> None:
         raise ModelError(WHERE, f"must be a mapping, is {checks.shown(given)}", '{"first": ["6-1", "7-1"]}')
     if controller is not None:
         raise ModelError(WHERE, "a controller has no derivatives", "give one of both")
-    if not hasattr(plan.form.line, "dropper_span"):
+    if not isinstance(plan.form, Form):
         raise ModelError(WHERE, "a route has none", "take one of its tension lengths")
     if plan.touch.kind == "joint" and getattr(integrator, "formulation", "ggl") == "ggl":
         hint = 'contact="penalty", or integrator=ancf.GeneralizedAlpha(0.5, formulation="index2")'

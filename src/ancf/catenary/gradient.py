@@ -34,7 +34,7 @@ from .plan import Plan
 from .ready import STEP, Ready, ready
 from .recorded import recorded
 from .route_form import AnyForm
-from .run import Speed, planned, relaxed, simulated
+from .run import Speed, planned, relaxed, settings_of, simulated
 from .run_data import Run
 from .signals import Butterworth, filter_of
 from .twin import second_supports
@@ -138,7 +138,7 @@ def gradient(
     begun = ready(plan, active=False, sleeps=False, sensitivities=wanted)
     if not begun.wanted:
         raise ModelError(f"{WHERE}.droppers", "must name a dropper", '{"first": ["6-1"]}, or None for all')
-    settings = {**begun.settings(integrator), "t_end": plan.duration, "output_step": plan.duration}
+    settings = {**settings_of(begun, integrator), "t_end": plan.duration, "output_step": plan.duration}
     run = recorded(ancf.simulate(begun.overhead.model, **settings), begun, {})
     evaluated = check_pantograph(run, WHERE, evaluated)
     weights = weights_of(run, objective, evaluated, chosen)

@@ -23,7 +23,7 @@ from .line import Line
 from .mesh import Mesh
 from .pantograph import Pantograph
 from .plan import Door, Plan, formed, make_plan
-from .ready import STEP, ready
+from .ready import STEP, Ready, ready
 from .recorded import recorded
 from .rest import form
 from .route import Route
@@ -244,6 +244,13 @@ def relaxed(plan: Plan, sleeps: bool) -> Plan:
     return replace(plan, raised=raised, spent=done.cpu_seconds)
 
 
+def settings_of(begun: Ready, integrator: Any) -> dict[str, Any]:
+    """What is given to a simulation of what :func:`recorded` is told."""
+    settings = begun.settings(integrator)
+    settings["sensors"] = [*settings["sensors"], *second_supports(begun.overhead).values()]
+    return settings
+
+
 def simulated(
     plan: Plan,
     integrator: Any,
@@ -258,14 +265,12 @@ def simulated(
     begun = ready(plan, active=bool(led), sleeps=sleeps, sensitivities=sensitivities)
     if callable(led.get("controller")):
         led["controller"] = Watched(led["controller"], begun.collectors)
-    settings = begun.settings(integrator)
-    settings["sensors"] = [*settings["sensors"], *second_supports(begun.overhead).values()]
     given: dict[str, Any] = {
         "t_end": plan.duration,
         "output_step": plan.duration if output_step is None else output_step,
         "file": file,
         "progress": progress,
-        **settings,
+        **settings_of(begun, integrator),
         **led,
     }
     model, spans = begun.overhead.model, None
