@@ -25,7 +25,7 @@ from .results import free_turns, remembered
 from .results import result as results
 from .results.accuracy import of_locked_modes
 from .results.modes import DampedModes, Modes
-from .results.out_of_balance import explain_unstable, notes_of_balance, of_bends, of_motion
+from .results.out_of_balance import explain_unstable, notes_of_balance, of_bends, of_loads, of_motion
 from .results.result import Result
 from .results.room import check_room
 from .results.state import State
@@ -312,7 +312,7 @@ def modes(model: Model, *, about: State | None = None, count: int = 10, sensitiv
                 explain_unstable(error)
             raise
     notes += of_bends(system.model, omega) + free_turns.notes(about, omega, shapes)
-    notes += of_locked_modes(about, omega, shapes)
+    notes += of_locked_modes(about, omega, shapes) + of_loads(system, about.q, omega, shapes)
     made = Modes(omega, shapes, about, notes=notes)
     if not parameters:
         return made

@@ -19,6 +19,7 @@ from ..model.connections import Spring
 from ..model.model import Model
 from ..model.torsion import TorsionSpring
 from ..solvers.damped_modal import rotation_of
+from ..solvers.differences_of_forces import Differences
 from ..system.core import apply_load, residual
 from ..system.system import System
 from . import remembered
@@ -28,6 +29,14 @@ from .remembered import Remembered
 BALANCED, ROUND_OFF = 1e-3, 1e-10
 #: Share of the largest rate, above which a rate is that of a rotation.
 ROTATES = 1e-6
+#: Size of the rest beside omega^2, whose square is about the share of omega^2 that is wrong.
+SMALL = 0.02
+#: Unknowns on which such loads act, beyond which nothing is said: a load along all of a long cable.
+MANY = 300
+HALF = (
+    "moments and loads that follow the motion have no potential: modes() takes the symmetric part of their "
+    "stiffness, which is far from all of it here; ancf.damped_modes has all of it"
+)
 LEAVES_OUT = "modes() leaves that out, ancf.damped_modes(model) has it"
 
 
@@ -120,6 +129,27 @@ def of_bends(model: Model, omega: FloatArray) -> list[str]:
     return [f"{what}: frequencies of zero may be that; {hint}"]
 
 
+def of_loads(system: System, q: FloatArray, omega: FloatArray, shapes: FloatArray) -> list[str]:
+    """A note on modes that change by what the stiffness of loads has besides its symmetric part.
+
+    Parameters
+    ----------
+    system : System
+    q : ndarray, shape (size,)
+        State about which the modes are.
+    omega : ndarray, shape (count,), rad/s
+    shapes : ndarray, shape (count, size)
+        Normed to a modal mass of 1 kg.
+    """
+    loads = Differences(system, system.core.external)
+    if not 0 < len(loads.moved) <= MANY:
+        return []
+    J, at = loads.among(q), loads.place[loads.moved]
+    rest, moved = 0.5 * (J - J.T), shapes[:, at]
+    sizes = np.linalg.norm(moved @ rest, axis=1) * np.linalg.norm(moved, axis=1)
+    return [HALF] if np.any(sizes > SMALL * np.maximum(omega, 0.0) ** 2) else []
+
+
 def explain_unstable(error: SolveError) -> None:
     """Say of modes about a state that is an equilibrium, though none that is stable, what to do."""
     if "give about=" not in error.hint:
@@ -127,7 +157,8 @@ def explain_unstable(error: SolveError) -> None:
     error.hint = ""
     error.advise(
         "it is an equilibrium that a push leaves: look for another one, from a path near it or with a small "
-        "side load; of loads that follow the motion ancf.damped_modes has all of their stiffness"
+        "side load; moments and loads that follow the motion have no potential, and modes() takes the "
+        "symmetric part of their stiffness: with them ask ancf.damped_modes, which has all of it"
     )
 
 

@@ -53,6 +53,15 @@ class Differences:
             by_rate[:, i] = (self._forces(q, near) - self._forces(q, far)) * weight / (2.0 * step)
         return by_place, by_rate
 
+    def among(self, q: FloatArray) -> FloatArray:
+        """At rest by positions, of the forces on what the batches touch: rows and columns as in ``moved``."""
+        found, still = np.zeros((len(self.moved), len(self.moved))), np.zeros_like(q)
+        for k, i in enumerate(self.moved.tolist()):
+            by = DIFFERENCE / self.system.core.weight[i]
+            near, far = (self._forces(self._nudged(q, i, s * by), still) for s in (1.0, -1.0))
+            found[:, k] = (near - far)[self.moved] / (2.0 * by)
+        return np.where(np.abs(found) < ROUND_OFF * np.max(np.abs(found), initial=0.0), 0.0, found)
+
     def _nudged(self, x: FloatArray, i: int, by: float) -> FloatArray:
         near = x.copy()
         near[self.place[i]] += by
