@@ -303,3 +303,69 @@ class TestRamp:
         first = run.velocity(mass)[0, 0]
         assert first == pytest.approx(0.03 * 2 * np.pi if ramp is None else 0.0, rel=1e-3, abs=1e-9)
         assert run.position(mass)[:, 0] == pytest.approx(motion(np.asarray(run.t))[:, 0], abs=1e-12)
+
+
+class TestSpeeds:
+    """Series of speeds, of which a support or a length takes the way."""
+
+    @pytest.mark.parametrize("unit", ["m/s", "mm/s", "km/h", "rpm", ""])
+    @pytest.mark.parametrize("how", ["linear", "spline"])
+    def test_the_way_is_the_integral(self, how, unit):
+        """Of a trapezoid of speeds exact with straight lines, of a sine to the fourth order."""
+        scale = UNITS[unit] if unit else 1.0
+        t = np.array([0.0, 1.0, 3.0, 4.0]) if how == "linear" else np.linspace(0.0, 4.0, 401)
+        v = [0.0, 2.0, 2.0, 0.0] if how == "linear" else np.sin(3 * t)
+        found = Series(t, v, unit=unit, interpolation=how, integrate=True)
+        at = np.array([0.0, 0.5, 2.0, 3.5, 4.0])
+        way = [0.0, 0.25, 3.0, 5.75, 6.0] if how == "linear" else (1 - np.cos(3 * at)) / 3
+        assert found(at)[:, 0] == pytest.approx(scale * np.asarray(way), abs=1e-8)
+        assert found(at, 1)[:, 0] == pytest.approx(scale * np.interp(at, t, v), abs=1e-4)
+        assert found.unit == {"rpm": "rad", "": None}.get(unit, "m")
+        again = pickle.loads(pickle.dumps(found))
+        assert np.array_equal(again(at), found(at))
+        assert again.unit == found.unit
+
+    @pytest.mark.parametrize("columns", [1, 3])
+    def test_a_cutoff_smooths_the_speeds(self, columns):
+        t = np.linspace(0.0, 10.0, 501)
+        noisy = np.sin(t)[:, None] + 0.2 * np.random.default_rng(1).standard_normal((len(t), columns))
+        noisy = noisy[:, 0] if columns == 1 else noisy
+        speeds = Series(t, noisy, unit="m/s", cutoff=1.0)
+        found = Series(t, noisy, unit="m/s", cutoff=1.0, integrate=True)
+        fine = np.linspace(0.0, 10.0, 20001)
+        v = speeds(fine)
+        way = np.vstack([np.zeros(columns), np.cumsum(0.5 * (v[1:] + v[:-1]) * (fine[1] - fine[0]), axis=0)])
+        assert found(fine) == pytest.approx(way, abs=1e-6)
+        assert found(fine, 1) == pytest.approx(v, abs=1e-12)
+        assert found(fine[1:-1], 2) == pytest.approx(speeds(fine[1:-1], 1), abs=1e-9)
+
+    def test_a_constant_speed_is_no_constant_way(self):
+        model = ancf.Model()
+        mass = model.add_point_mass("mass", at=(0, 0, 0), mass=1.0)
+        speed = Series([0.0, 1.0, 2.0], [2.0, 2.0, 2.0], unit="m/s", integrate=True)
+        model.hold(mass, position="xyz", displacement=(speed, 0, 0))
+        mass.set_motion(velocity=(2.0, 0, 0))
+        run = ancf.simulate(model, t_end=1.0, step=0.01)
+        assert run.position(mass)[:, 0] == pytest.approx(2.0 * run.t, abs=1e-12)
+
+    def test_one_time_is_enough(self):
+        for more in ({}, {"interpolation": "linear"}, {"cutoff": 2.0}, {"ramp": 0.5}, {"integrate": True}):
+            found = Series(np.linspace(0, 1, 11), np.linspace(0, 2, 11), **more)
+            assert np.array_equal(found(0.75), found(np.array([0.75])))
+            assert found(0.75).shape == (1, 1)
+
+    @pytest.mark.parametrize("unit", ["mm", "kN", "m/s^2", "1"])
+    def test_what_is_no_speed_is_refused(self, unit):
+        with pytest.raises(ancf.ModelError, match=r"Series\.integrate: is of speeds, the values are in"):
+            Series([0, 1], [0, 1], unit=unit, integrate=True)
+
+    def test_a_file_moves_a_support_by_its_speeds(self, tmp_path):
+        (tmp_path / "trolley.csv").write_text("t [s];v [mm/s]\n0;0\n1;2000\n3;2000\n4;0\n", encoding="utf-8")
+        motion = '[{ csv = "trolley.csv", column = "v", interpolation = "linear"%s }, 0, 0]'
+        found = study(tmp_path, motion % ", integrate = true").model
+        for model in (found, ancf.Model.from_dict(json.loads(json.dumps(found.to_dict())))):
+            [support] = model.supports
+            assert support.displacement(3.5)[0] == pytest.approx(5.75)
+        with pytest.raises(ancf.ModelError, match="must be in m") as caught:
+            study(tmp_path, motion % "")
+        assert "integrate = true" in caught.value.hint

@@ -17,8 +17,8 @@ from .units import factor, kind_of
 
 INTERPOLATIONS = ("linear", "spline")
 #: Keys of a series in a description, and in a file that names a CSV file.
-KEYS = ("t", "value", "unit", "interpolation", "cutoff", "relative", "ramp")
-FILE_KEYS = ("csv", "column", "unit", "time", "time_unit", "interpolation", "cutoff", "relative", "ramp")
+KEYS = ("t", "value", "unit", "interpolation", "cutoff", "relative", "ramp", "integrate")
+FILE_KEYS = ("csv", "column", "time", "time_unit", *KEYS[2:])
 #: A motion is noisy if its acceleration above this share of half the sampling rate exceeds the rest and this.
 HIGH, LEAST = 0.25, 1.0
 
@@ -38,8 +38,8 @@ class Series(metaclass=Told):
     size : 1 or 3, optional
         Which of both it has to be.
     unit, time_unit : str
-        One of ``ancf.model.units.UNITS``, such as "mm", "kN", "deg"; default those of the package. A
-        series with a unit is refused where another quantity is meant: one in kN as a displacement.
+        One of ``ancf.model.units.UNITS``, such as "mm", "kN", "deg"; default those of the package. One of
+        another quantity than is meant is refused: a displacement in kN.
     interpolation : "spline" or "linear"
         A cubic spline through the values, twice differentiable, or straight lines.
     cutoff : float, Hz, optional
@@ -48,17 +48,18 @@ class Series(metaclass=Told):
     relative : bool
         Count from the value at the first time, as displacements do; with a ramp from that where it begins.
     ramp : float, s, optional
-        Time in which it sets in: from the value at t = 0, or at the first time if that is later, by
-        ``first + (value - first) (10 x^3 - 15 x^4 + 6 x^5)``, so that rates and accelerations begin with
-        zero, as those of a model at rest do.
+        Time in which it sets in: from the value at t = 0, or at the first time if that is later, by ``first +
+        (value - first) (10 x^3 - 15 x^4 + 6 x^5)``, so that rates and accelerations begin with zero.
+    integrate : bool
+        The values are speeds and the series their way, zero at the first time; "linear" joins the speeds.
 
     Raises
     ------
     ModelError
-        Times do not increase, a value is no finite number, there are too few, or a unit is unknown.
+        Times do not increase, a value is no finite number, too few of them, or an unknown unit.
     """
 
-    __slots__ = ("_curve", "cutoff", "interpolation", "ramp", "relative", "t", "unit", "value")
+    __slots__ = ("_curve", "cutoff", "integrate", "interpolation", "ramp", "relative", "t", "unit", "value")
 
     def __init__(
         self,
@@ -72,11 +73,13 @@ class Series(metaclass=Told):
         cutoff: float | None = None,
         relative: bool = False,
         ramp: float | None = None,
+        integrate: bool = False,
         where: str = "Series",
     ) -> None:
         self.t = checks.array(t, f"{where}.t", (None,)) * factor(time_unit, f"{where}.time_unit", "s")
         self.value = _values(value, f"{where}.value", size) * factor(unit, f"{where}.unit")
-        self.unit = kind_of(unit) if unit else None
+        self.integrate = checks.flag(integrate, f"{where}.integrate")
+        self.unit = _way(unit, where) if self.integrate else kind_of(unit) if unit else None
         self.interpolation = checks.choice(interpolation, f"{where}.interpolation", INTERPOLATIONS)
         self.cutoff = None if cutoff is None else checks.positive(cutoff, f"{where}.cutoff")
         self.relative = checks.flag(relative, f"{where}.relative")
@@ -140,8 +143,9 @@ class Series(metaclass=Told):
         """Time at which a ramp begins, s."""
         return max(float(self.t[0]), 0.0)
 
-    def __call__(self, times: FloatArray, derivative: int = 0) -> FloatArray:
-        """Values (n, size) at times (n,), or their first or second derivative."""
+    def __call__(self, times: FloatArray | float, derivative: int = 0) -> FloatArray:
+        """Values (n, size) at times (n,) or at a single one, or their first or second derivative."""
+        times = np.atleast_1d(np.asarray(times, dtype=np.float64))
         if self.ramp is None:
             return self._whole(times, derivative)
         first = self._whole(np.array([self.begin]))
@@ -170,7 +174,7 @@ class Series(metaclass=Told):
     @property
     def constant(self) -> bool:
         """All values are the same."""
-        return bool(np.all(self.value == self.value[0]))
+        return bool(np.all(self.value == self.value[0]) and not (self.integrate and np.any(self.value)))
 
     def describe(self) -> dict[str, Any]:
         """Plain form, in the units of the package; what :meth:`of` reads."""
@@ -179,7 +183,9 @@ class Series(metaclass=Told):
         if self.cutoff is not None:
             plain["cutoff"] = self.cutoff
         plain |= {"relative": True} if self.relative else {}
-        plain |= {"unit": self.unit or "1"} if self.unit is not None else {}
+        rate = "/s" if self.integrate else ""
+        plain |= {"unit": (self.unit or "1") + rate} if self.unit is not None else {}
+        plain |= {"integrate": True} if self.integrate else {}
         return plain | ({"ramp": self.ramp} if self.ramp is not None else {})
 
     @classmethod
@@ -187,7 +193,7 @@ class Series(metaclass=Told):
         """From a table in a description or a file: straight lines, if it does not say otherwise."""
         if set(plain) - set(KEYS) or not {"t", "value"} <= set(plain):
             what = f'a table has the keys "t" and "value", not {sorted(map(str, plain))}'
-            hint = 'also "unit", "interpolation", "cutoff", "relative", "ramp"; '
+            hint = 'also "unit", "interpolation", "cutoff", "relative", "ramp", "integrate"; '
             hint += '{ csv = "file.csv", column = "x" } in a file'
             raise ModelError(where, what, hint)
         smooth = "spline" if "cutoff" in plain else "linear"
@@ -198,7 +204,7 @@ class Series(metaclass=Told):
 
     def __repr__(self) -> str:
         more = f", cutoff={self.cutoff:g} Hz" if self.cutoff else ""
-        more += f", ramp={self.ramp:g} s" if self.ramp else ""
+        more += (f", ramp={self.ramp:g} s" if self.ramp else "") + (", integrated" if self.integrate else "")
         return (
             f"Series({self.t.size} values from {self.t[0]:g} to {self.t[-1]:g} s, {self.interpolation}{more})"
         )
@@ -210,7 +216,7 @@ class Series(metaclass=Told):
         the noise of the values; None if that is less than the rest or than :data:`LEAST`. White noise has
         nearly all of its acceleration there, a motion that its samples resolve next to nothing.
         """
-        if self.t.size < 16:
+        if self.t.size < 16 or self.integrate:  # noise of speeds is differentiated once, not twice
             return None
         step = float(np.median(np.diff(self.t)))
         cut = HIGH * 0.5 / step
@@ -228,16 +234,20 @@ class Series(metaclass=Told):
 
     def _fitted(self) -> Any:
         """The curve that is followed, or for straight lines its values."""
-        from scipy.interpolate import CubicSpline  # a model without series does without
+        from scipy.interpolate import CubicSpline, make_interp_spline  # a model without series does without
 
         values = self.value
+        if self.integrate and self.cutoff is None:
+            straight = self.interpolation == "linear"
+            joined = make_interp_spline(self.t, values, k=1) if straight else CubicSpline(self.t, values)
+            return joined.antiderivative()
         if self.interpolation == "linear":
             return values - values[0] if self.relative else values
         if self.cutoff is not None:
-            curve: Any = _smoothed(self.t, values, self.cutoff)
+            curve: Any = _smoothed(self.t, values, self.cutoff, self.integrate)
         else:
             curve = CubicSpline(self.t, values, bc_type="not-a-knot" if self.t.size > 3 else "natural")
-        if not self.relative:
+        if not self.relative and not self.integrate:
             return curve
         first = curve(self.t[0])
         return lambda times, derivative=0: curve(times, derivative) - (first if derivative == 0 else 0.0)
@@ -251,7 +261,7 @@ def _rise(x: FloatArray, length: float) -> FloatArray:
     return np.stack([value, 30.0 * (x * rest) ** 2 / length, 60.0 * x * rest * (rest - x) / length**2])
 
 
-def _smoothed(t: FloatArray, values: FloatArray, cutoff: float) -> Any:
+def _smoothed(t: FloatArray, values: FloatArray, cutoff: float, integrate: bool) -> Any:
     """Smoothing spline that keeps 1/sqrt(2) of a vibration with the cut-off frequency.
 
     The curve f minimises the sum of w (y - f)^2 and lam times the integral of f''^2. With weights that are
@@ -269,13 +279,24 @@ def _smoothed(t: FloatArray, values: FloatArray, cutoff: float) -> Any:
         make_smoothing_spline(x, column, w=weights, lam=strength) for column in values.reshape(len(t), -1).T
     ]
 
+    columns = [column.antiderivative() for column in columns] if integrate else columns
+    unit = spacing if integrate else 1.0
+
     def curve(times: Any, derivative: int = 0) -> FloatArray:
         places = (np.asarray(times) - t[0]) / spacing
-        parts = [column(places, derivative) / spacing**derivative for column in columns]
+        parts = [unit * column(places, derivative) / spacing**derivative for column in columns]
         stacked: FloatArray = np.stack(parts, axis=-1)
         return stacked[..., 0] if values.ndim == 1 else stacked
 
     return curve
+
+
+def _way(unit: str, where: str) -> str | None:
+    """Unit of the integral of values with a unit, that of a speed; None without."""
+    kind = kind_of(unit) if unit else None
+    if kind is not None and kind not in ("m/s", "rad/s"):
+        raise ModelError(f"{where}.integrate", f"is of speeds, the values are in {kind or '1'}")
+    return kind.removesuffix("/s") if kind else None
 
 
 def _values(value: Any, where: str, size: int | None) -> FloatArray:

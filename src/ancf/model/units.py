@@ -63,8 +63,9 @@ def kind_of(unit: str) -> str:
 def check_kind(unit: str | None, of: str | None, where: str) -> None:
     """Raise ModelError if a unit of the package is known to be that of something else than what is wanted."""
     if unit is not None and of is not None and unit != of:
-        what = f"is {_in(unit)}, must be {_in(of)}"
-        raise ModelError(where, what, "give another column, or the unit that its numbers have")
+        hint = "give another column, or the unit that its numbers have"
+        hint += "; integrate = true makes a way of speeds" if unit == f"{of}/s" else ""
+        raise ModelError(where, f"is {_in(unit)}, must be {_in(of)}", hint)
 
 
 def _in(unit: str) -> str:

@@ -129,6 +129,7 @@ _HOW: dict[str, Any] = {
         "description": "Frequency of which a smoothing spline keeps the 0.71th part [Hz].",
     },
     "relative": {"type": "boolean", "description": "Count from the value at the first time [-]."},
+    "integrate": {"type": "boolean", "description": "Values are speeds, the series is their way [-]."},
     "ramp": {
         "type": "number",
         "exclusiveMinimum": 0,
