@@ -215,6 +215,35 @@ class TestSlidesAndContacts:
         assert np.all(ends[:, 1, 1] > ends[:, 0, 1])
 
 
+class TestInputs:
+    @pytest.mark.parametrize("units", [("N", "N"), ("N", "m/s"), ("", "N")])
+    def test_have_a_panel_for_each_unit(self, units):
+        model = ancf.Model()
+        mass = model.add_point_mass("mass", at=(0, 0, 0), mass=1.0)
+        u, w = (model.add_input(name, 0.0, unit=unit) for name, unit in zip("uw", units, strict=True))
+        model.add_force(mass, (u, w, 0))
+
+        def lead(run):
+            run.inputs["u"], run.inputs["w"] = run.t, -run.t
+
+        result = ancf.simulate(
+            model, t_end=0.1, step=0.01, controller=lead, control_step=0.02, sensors=[mass]
+        )
+        for source in (result, result.sensors):
+            axes = source.plot("u", w).axes
+            labels = [f"input [{unit}]" if unit else "input" for unit in dict.fromkeys(units)]
+            assert [one.get_ylabel() for one in axes] == labels
+            drawn = [line.get_ydata() for one in axes for line in one.lines]
+            assert np.array_equal(drawn[0], source.input("u"))
+            assert np.array_equal(drawn[1], source.input("w"))
+            assert np.any(drawn[0] > 0.0)
+            assert np.any(drawn[1] < 0.0)
+
+    def test_a_wrong_name_is_told(self, result):
+        with pytest.raises(ancf.ModelError, match="no point, support, spring, contact, joint or input here"):
+            result.plot("thrust")
+
+
 class TestPaths:
     def test_in_a_plane(self, result):
         picture = result.plot("rope.end", "rope.at(0.5)", plane="zx")
@@ -249,7 +278,7 @@ class TestMistakes:
             (["taut"], {"plane": "xz"}, "only points have a path"),
             (["ball"], {"plane": "xx"}, 'two or three letters of "xyz"'),
             (["ball"], {"size": (10, -1)}, "plot.size: must be > 0"),
-            ([3], {}, "must be a point, support, spring, contact or joint"),
+            ([3], {}, "must be a point, support, spring, contact, joint or input"),
         ],
     )
     def test_are_named(self, result, what, options, message):

@@ -95,10 +95,12 @@ def size_of(given: Any, default: tuple[float, float]) -> tuple[float, float]:
 
 def _panels(source: Any, what: Sequence[Any], quantity: str | None, x: str) -> Iterator[Panel]:
     """A panel for each quantity; of several vectors one for each component."""
-    groups: dict[str, list[Any]] = {}
+    groups: dict[tuple[str, str], list[Any]] = {}
     for item in what:
-        groups.setdefault(quantity_of(source, item, quantity), []).append(item)
-    for asked, items in groups.items():
+        asked = quantity_of(source, item, quantity)
+        unit = source.model.inputs[label(item)].unit if asked == "input" else ""
+        groups.setdefault((asked, unit), []).append(item)
+    for (asked, unit), items in groups.items():
         along = [_along(source, x, item) for item in items]
         values = [ask(source, asked, item) for item in items]
         names = [label(item) for item in items]
@@ -108,7 +110,7 @@ def _panels(source: Any, what: Sequence[Any], quantity: str | None, x: str) -> I
                 yield from _moment(source, items[0], along[0])
         else:
             curves = [Curve(*given) for given in zip(names, along, values, strict=True)]
-            yield Panel(style.axis_label(asked), curves)
+            yield Panel(style.axis_label(asked) + (f" [{unit}]" if unit else ""), curves)
 
 
 def _along(source: Any, x: str, item: Any) -> FloatArray:

@@ -11,6 +11,7 @@ from ...errors import ModelError
 from ...model import checks
 from ...model.beam import Beam
 from ...model.bodies import PointMass, RigidBody
+from ...model.inputs import Input
 from ...model.kind import CONTACT, JOINT, SLIDE, SPRING, SURFACE_CONTACT, TORSION
 from ...model.kinds import CONNECTIONS, kind_of
 from ...model.names import POINT_LABEL
@@ -29,6 +30,7 @@ class Question(NamedTuple):
 
 POINT = "point"
 SUPPORT = "support"
+INPUT = "input"
 
 QUANTITIES: dict[str, Question] = {
     "position": Question("position", (POINT,), vector=True),
@@ -63,6 +65,7 @@ QUANTITIES: dict[str, Question] = {
     "joint_velocity": Question("joint_velocity", (JOINT,)),
     "reaction": Question("reaction", (SUPPORT,), vector=True),
     "reaction_moment": Question("reaction_moment", (SUPPORT,), vector=True),
+    "input": Question("input", (INPUT,)),
 }
 SCALARS = [name for name, question in QUANTITIES.items() if not question.vector]
 #: What is asked when no quantity is given.
@@ -75,6 +78,7 @@ DEFAULTS = {
     SLIDE: "arc_length",
     JOINT: "joint_force",
     SUPPORT: "reaction",
+    INPUT: "input",
 }
 
 
@@ -113,22 +117,26 @@ def quantity_of(source: Any, item: Any, quantity: str | None) -> str:
 
 
 def noun_of(source: Any, item: Any) -> str:
-    """What an item is: "point", "support", "spring", "contact", "sliding joint" or "joint"."""
+    """What an item is: "point", "support", "spring", "contact", "sliding joint", "joint" or "input"."""
     if isinstance(item, Point | PointMass | RigidBody | Beam):
         return POINT
     if isinstance(item, Pin | Clamp | Hold):
         return SUPPORT
+    if isinstance(item, Input):
+        return INPUT
     for kind in CONNECTIONS:
         if isinstance(item, kind.item):
             return kind.asked
     if not isinstance(item, str):
-        what = f"must be a point, support, spring, contact or joint, or its name, is {checks.shown(item)}"
+        what = (
+            f"must be a point, support, spring, contact, joint or input, or its name, is {checks.shown(item)}"
+        )
         raise ModelError("plot", what, 'such as result.plot("beam.end")')
     named = known(source)
     if item in named:
         return named[item]
     if item.strip() not in source.bodies and not POINT_LABEL.fullmatch(item.strip()):
-        what = f'"{item}" is no point, support, spring, contact or joint here'
+        what = f'"{item}" is no point, support, spring, contact, joint or input here'
         names = [*source.bodies, *named]
         hint = checks.nearest(item, names) or f"there are: {checks.listed(names)}"
         hint = f'what is drawn of the others: quantity="{item}"' if item in (*QUANTITIES, "energy") else hint
@@ -137,10 +145,10 @@ def noun_of(source: Any, item: Any) -> str:
 
 
 def known(source: Any) -> dict[str, str]:
-    """Names of springs, contacts, joints and supports, with what they are."""
+    """Names of springs, contacts, joints, supports and inputs, with what they are."""
     asked = {*source.joints, *source.springs, *source.torsion_springs, *source._contacts()}
     found = {item.name: kind_of(item).asked for item in source.model.connections if item.name in asked}
-    return found | dict.fromkeys(source.held_supports(), SUPPORT)
+    return found | dict.fromkeys(source.held_supports(), SUPPORT) | dict.fromkeys(source.model.inputs, INPUT)
 
 
 def label(item: Any) -> str:
