@@ -240,7 +240,10 @@ def parse_point(bodies: Mapping[str, Body], label: str, where: str = "point") ->
     """
     if label.strip() in bodies:
         return own_point(bodies[label.strip()], where)
-    name, word, inside = split_label(label, bodies, where)
+    ends = [
+        f"{own.name}.{end}" for own in bodies.values() if isinstance(own, Beam) for end in ("start", "end")
+    ]
+    name, word, inside = split_label(label, [*ends, *bodies], where)
     if name not in bodies:
         raise unknown(where, "body", name, bodies)
     body = bodies[name]

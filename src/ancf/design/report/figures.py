@@ -65,6 +65,18 @@ def _affected(table: DataFrame, found: dict[str, Any], name: str) -> bool:
     return any(row["bins"] for row in found["effects"][name].values())
 
 
+def _compared(table: DataFrame, found: dict[str, Any], name: str) -> bool:
+    """Whether there are several parameters, whose effects may be compared: of one its cases say all."""
+    return len(parameters_of(table)) > 1 and _affected(table, found, name)
+
+
+def _averaged(table: DataFrame, found: dict[str, Any], name: str) -> bool:
+    """Whether there are several parameters, or several cases with one value, to take means of."""
+    own = parameters_of(table)
+    repeated = any(table[key].duplicated().any() for key in own)
+    return (len(own) > 1 or repeated) and _affected(table, found, name)
+
+
 def _with_indices(method: str) -> Callable[[Any, dict[str, Any], str], bool]:
     return lambda table, found, name: bool(found.get(method, {}).get(name, {}).get("indices"))
 
@@ -91,9 +103,12 @@ def _scatter(figure: Figure, table: DataFrame, found: dict[str, Any], name: str)
     y = column(table, name)
     good = np.flatnonzero(np.isfinite(y))[:MOST_DOTS]
     for axes, key in zip(*_panels(figure, table, found, name), strict=False):
-        x = table[key].to_numpy()[good]
+        x = _numeric(axes, table[key].to_numpy()[good])
         size = 6.0 if len(good) < 500 else 2.0
-        axes.scatter(_numeric(axes, x), y[good], s=size, color=style.BLUE, alpha=0.6, lw=0)
+        axes.scatter(x, y[good], s=size, color=style.BLUE, alpha=0.6, lw=0)
+        if len(parameters_of(table)) == 1 and len(np.unique(x)) == len(x):  # a curve
+            order = np.argsort(x)
+            axes.plot(x[order], y[good][order], color=style.BLUE, lw=0.8)
         axes.set_xlabel(key)
         axes.set_ylabel(name)
 
@@ -224,6 +239,8 @@ def _numeric(axes: Axes, x: Any) -> Any:
 
 def _of_panels(count: int) -> tuple[float, float]:
     rows, columns = _grid(min(count, MOST_PANELS))
+    if count == 1:
+        return _wide(count)
     return max(PANEL[0] * columns, 1.5 * PANEL[0]), PANEL[1] * rows
 
 
@@ -249,7 +266,7 @@ FIGURES: dict[str, FigureKind] = {
         "Mean of the cases with the lowest and with the highest values of each parameter, beside the mean.",
         _of_bars,
         _tornado,
-        _affected,
+        _compared,
     ),
     "effects": FigureKind(
         "Main effects",
@@ -258,7 +275,7 @@ FIGURES: dict[str, FigureKind] = {
         "what as many random groups of cases explain.",
         _of_panels,
         _effects,
-        _affected,
+        _averaged,
     ),
     "sobol": FigureKind(
         "Sobol' indices",

@@ -332,7 +332,7 @@ class FileEntry(Entry):
 
     title: str = Field("", description="Title of the study.")
     parameters: Parameters = Field(default_factory=dict)
-    gravity: Vector = Field([0.0, 0.0, 0.0], description="Gravity [m/s^2].")
+    gravity: Vector = Field([0.0, 0.0, 0.0], description="Gravity, [x, y, z] [m/s^2].")
     sections: dict[str, AnySection] = Field({}, description="Cross-sections by name.")
     bodies: list[AnyBody] = Field(min_length=1, description="Beams, cables, point masses, rigid bodies.")
     inputs: list[InputEntry] = Field([], description="Numbers that are given while a simulation runs.")
