@@ -12,6 +12,7 @@ from .galloping import said as galloping
 from .plan import RUN_IN, Plan
 from .reach import without_droppers
 from .signals import CUT_OFF, at_zero
+from .sleeping import REDUCED
 from .statistics import MEAN_FORCE_LAW, mean_force_target
 
 if TYPE_CHECKING:
@@ -26,13 +27,18 @@ LARGEST = 0.9
 LONGEST = 4e-3
 #: Lift of a pantograph over the largest mean force of the standards from which on units are to be looked at.
 HARD = 2.0
+#: Decay of vibrations at half the cut-off, 1/s, below which spans that are linear come out of step with
+#: others, as frequencies follow the tension; and uplift of a support, m, from which on that changes much.
+DECAY, LIFTED = 0.15, 0.1
 #: Losses of contact of one or two steps from which on they are chatter.
 CHATTER = 3
 
 
-def before(plan: Plan) -> Iterator[str]:
-    """What is to be said about a run before it is computed."""
+def before(plan: Plan, sleeps: bool = False) -> Iterator[str]:
+    """What is to be said about a run before it is computed; ``sleeps``: spans are to be reduced."""
     yield from _speed(plan)
+    if sleeps:
+        yield from _hardly_damped(plan)
     yield from _lift(plan)
     yield from doubts(plan.form.line)
     for part in plan.form.line.parts:
@@ -68,6 +74,22 @@ def _lift(plan: Plan) -> Iterator[str]:
             yield text + "0.00097 N h^2/km^2"
 
 
+def _hardly_damped(plan: Plan) -> Iterator[str]:
+    """Lines along which vibrations last, so that spans which are reduced come out of step."""
+    hertz = 0.5 * CUT_OFF
+    omega = 2.0 * np.pi * hertz
+    decay = min(
+        part.damping.alpha + omega**2 * part.damping.beta + part.contact_wire.damping / part.contact_wire.mass
+        for part in plan.form.line.parts
+    )
+    if decay < DECAY:
+        text = (
+            f"run.reduce: damping takes {decay:.2g}/s at {hertz:g} Hz, hardly any: spans that move by their "
+        )
+        text += "modes come out of step with the line, and standard deviations may change by 1 to 2 %; "
+        yield text + "give line.damping, or leave reduce out"
+
+
 def _speed(plan: Plan) -> Iterator[str]:
     top = plan.travel.top
     wave, largest = plan.form.wave_speed, plan.form.mesh.contact
@@ -93,6 +115,10 @@ def after(run: Run) -> Iterator[str]:
 
     A rigid joint knows of impacts that are over in a step: theirs is not judged.
     """
+    lift = float(np.nanmax(run.uplift, initial=0.0))
+    if run.settings.get(REDUCED, 0) and lift > LIFTED:
+        text = f"run.reduce: supports are lifted by {1e3 * lift:.0f} mm, more than spans that move by their "
+        yield text + "modes can follow: standard deviations may change by 1 to 3 %; leave reduce out to see"
     if run.settings.get("contact") != "penalty":
         return
     for recording in run.recordings:

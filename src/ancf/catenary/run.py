@@ -126,7 +126,8 @@ def run(
     reduce : bool
         Whether spans move by their modes up to 50 Hz while no pantograph is near and their droppers are taut
         (Craig and Bampton 1968), which long lines gain time by. Not with `sensitivities`,
-        sliding joints, or an `integrator` that makes a matrix in each iteration or lets it turn.
+        sliding joints, or an `integrator` that makes a matrix in each iteration or lets it turn. It changes
+        standard deviations by less than 0.5 %, or says what may make that more.
     broken_droppers : sequence of str
         Span and number from 1, ``["8-3"]``, of droppers that are gone; their halves stay at the clamps as
         masses. The line is formed with them and comes to rest without them.
@@ -148,7 +149,7 @@ def run(
     UserWarning
         Numbers may not mean what they say: a speed near the wave speed of the contact wire or above it,
         elements or steps too long for what is evaluated, a window right behind the start, a contact that
-        chatters.
+        chatters, and with `reduce` a line that is hardly damped or whose supports are lifted by 0.1 m.
     """
     checks.progress(progress, "run.progress")
     plan = planned(
@@ -170,7 +171,7 @@ def run(
         broken_droppers=broken_droppers,
     )
     sleeps = sleeping.allowed(reduce, integrator, touch=plan.touch.kind, derived=bool(sensitivities))
-    _warn(cautions.before(plan))
+    _warn(cautions.before(plan, sleeps))
     plan = relaxed(plan, sleeps)
     if sensitivities:
         check_run(plan, sensitivities, controller, integrator)

@@ -28,6 +28,8 @@ from .signals import CUT_OFF
 
 #: Modes are taken up to this multiple of the cut-off of what is evaluated.
 BEYOND = 2.5
+#: How many spans are reduced, in the settings of a run.
+REDUCED = "spans that are reduced while no pantograph is near"
 #: Distance of a strip at which a span is taken as it is, m.
 NEAR = 7.0
 
@@ -144,11 +146,12 @@ def said(spans: FarSpans | None) -> dict[str, Any]:
     if spans is None:
         return {}
     if not spans.parts:
-        return {"spans that are reduced while no pantograph is near": 0}
+        return {REDUCED: 0}
     modes: FloatArray = np.array([len(kind.square) for kind in spans.kinds])
     return {
-        "spans that are reduced while no pantograph is near": len(spans.parts),
+        REDUCED: len(spans.parts),
         "their modes up to [Hz]": BEYOND * CUT_OFF,
         "modes of a span, at most": int(modes.max()),
         "displacement that these leave out, largest [m]": spans.left_out,
+        "force at supports that these leave out as spans begin to move by them, largest [N]": spans.neglected,
     }

@@ -17,7 +17,7 @@ from .newmark import FURTHEST, LAST, Rule
 from .rescue import Rescue
 from .sampling import Output, Sampling
 from .scheme import Scheme
-from .status import EVENT, INVERTED, OK, RETRIES, SINGULAR, STEPS, TOO_MANY, UNBALANCED
+from .status import EVENT, INVERTED, OK, RETRIES, SINGULAR, STEPS, TOO_MANY, TURN, UNBALANCED
 from .unresolved import resolve
 
 #: A step is cut into at most 2 ** MOST_HALVINGS parts.
@@ -171,6 +171,8 @@ class Bridge:
         before, energy = self._save(), self._energy()[0]
         row, room = np.full(1, -1), run.room(0, 1)
         status = run.block(core, tables, part, rule, row, room)[1]
+        if status == TURN:  # what may sleep waits for a whole step
+            status = OK
         self.sample = room.samples[0] if status == OK else None
         if core.damped and status not in (OK, SINGULAR) and status < EVENT:
             other = self.rescue.take(core, tables, part, run.scheme, rule)

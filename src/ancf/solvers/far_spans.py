@@ -44,6 +44,8 @@ from .memory import H_FACTOR, Memory
 BETWEEN = 2.0
 #: Time for which droppers have to be taut before a part sleeps, s.
 CALM_TIME = 0.05
+#: Largest force on the boundary of a part, N, that its linear model may leave out as it falls asleep.
+LEFT = 0.2
 
 
 class FarSpans:
@@ -72,6 +74,7 @@ class FarSpans:
         self.system, self.memory = system, memory
         self.parts: list[Part] = []
         self.left_out = 0.0  # largest displacement that the modes could not take over, m
+        self.neglected = 0.0  # largest force that linear parts left out as they fell asleep, N
         cables = cables_of(system)
         if cables is None:
             return
@@ -103,7 +106,7 @@ class FarSpans:
         """Let sleep what may at the start."""
         if self.parts:
             self.far.part[:, CALM] = int(self.far.memo[CALMED])
-            self._go_to_sleep(self._calm())
+            self._go_to_sleep(self._fitting(self._calm()))
 
     def turn(self) -> None:
         """Wake what has to, or let sleep one part that may: a step has to wait for it."""
@@ -111,7 +114,7 @@ class FarSpans:
         due = np.flatnonzero(found == TO_WAKE).tolist()
         for k in due:
             self._wake(k)
-        self._go_to_sleep([] if due else np.flatnonzero(found == TO_SLEEP)[:1].tolist())
+        self._go_to_sleep([] if due else self._fitting(np.flatnonzero(found == TO_SLEEP)[:1].tolist()))
 
     def wake_all(self) -> list[int]:
         """Go on with the whole line; what was asleep."""
@@ -147,6 +150,47 @@ class FarSpans:
         part, memo, near = self.far.part, self.far.memo, self._distances()
         may = (part[:, ASLEEP] == 0) & (near > memo[AWAY]) & (part[:, CALM] >= memo[CALMED])
         return np.flatnonzero(may).tolist()
+
+    def _fitting(self, parts: list[int]) -> list[int]:
+        """Those that move about their rest as their modes do; the others have to be calm for longer.
+
+        A slack stitch wire, or one that moves far, does not: to take its motion for that of modes would
+        stretch it as it wakes, which feeds its motion each time.
+        """
+        found = []
+        for k in parts:
+            force = self._neglects(k)
+            if force > LEFT:
+                self.far.part[k, CALM] = 0
+            else:
+                found.append(k)
+                self.neglected = max(self.neglected, force)
+        return found
+
+    def _neglects(self, k: int) -> float:
+        """Force on the boundary of a part, in the direction of strips, that its modes leave out now, N."""
+        part, kind, m = self.parts[k], self.kinds[self.kind_of[k]], self.memory
+        own, edge = self._own(k, (m.q, m.v, m.a))
+        y, v, a = own @ kind.project.T
+        acts = part.edge % 6 == ACTS
+        left: FloatArray = kind.coupling[:, acts].T @ (a - self._followed(k, y, v, edge[2], edge[1]))
+        return float(np.linalg.norm(left))
+
+    def _own(self, k: int, vectors: tuple[FloatArray, ...]) -> tuple[FloatArray, FloatArray]:
+        """Of positions and rates: what the inside of a part does beside following its boundary, and this."""
+        part, kind, far = self.parts[k], self.kinds[self.kind_of[k]], self.far
+        n, first, begin = len(part.edge), far.part[k, EDGE], far.part[k, INNER]
+        inside, edge = (np.array([x[at] for x in vectors]) for at in (part.inner, part.edge))
+        inside[0] -= far.rest[begin : begin + len(part.inner)]
+        edge[0] -= far.still[first : first + n]
+        return inside - edge @ kind.inside[:, :n].T, edge
+
+    def _followed(self, k: int, y: FloatArray, v: FloatArray, at: FloatArray, rate: FloatArray) -> FloatArray:
+        """Accelerations of the modes of a part whose boundary has these accelerations and rates."""
+        kind = self.kinds[self.kind_of[k]]
+        pushed = kind.coupling @ at + kind.drag * (kind.coupling @ rate)
+        followed: FloatArray = -kind.loss * v - kind.square * y - pushed
+        return followed
 
     def _go_to_sleep(self, parts: list[int]) -> None:
         for k in parts:
@@ -191,17 +235,12 @@ class FarSpans:
 
     def _sleep(self, k: int) -> None:
         part, kind, m, far = self.parts[k], self.kinds[self.kind_of[k]], self.memory, self.far
-        n, first, begin = len(part.edge), far.part[k, EDGE], far.part[k, INNER]
-        inner = slice(begin, begin + len(part.inner))
-        inside, edge = (np.array([x[at] for x in (m.q, m.v, m.abar)]) for at in (part.inner, part.edge))
-        inside[0] -= far.rest[inner]
-        edge[0] -= far.still[first : first + n]
-        own = inside - edge @ kind.inside[:, :n].T
+        begin = far.part[k, INNER]
+        own, _ = self._own(k, (m.q, m.v, m.abar))
         y, v, bar = own @ kind.project.T
         left = own[0, self.places[k]] - self.shown[self.kind_of[k]] @ y
         self.left_out = max(self.left_out, float(np.abs(left).max()))
-        at, rate = m.a[part.edge], m.v[part.edge]
-        a = -kind.loss * v - kind.square * y - kind.coupling @ at - kind.drag * (kind.coupling @ rate)
+        a = self._followed(k, y, v, m.a[part.edge], m.v[part.edge])
         for row, values in ((POSITION, y), (RATE, v), (SECOND, a), (BAR, bar)):
             self._put(k, row, values)
         hidden = slice(begin + far.kind[self.kind_of[k], WATCHED], begin + len(part.inner))
