@@ -84,7 +84,7 @@ def equilibrium(
     names = None if of is None else _names(model, of)
     with expected(model):
         state, leaned = _at_rest(independent(model), names, load_steps, time)
-    if sensitivities:
+    if checks.numbers_named(sensitivities, SENSITIVITIES[0]):
         from .sensitivity.compute import of_state
 
         state.derivatives = of_state(
@@ -95,7 +95,7 @@ def equilibrium(
 
 def _parameters(model: Model, sensitivities: Any, where: str) -> list[Any]:
     """Numbers of a model by which derivatives are wanted; what computes them is loaded when there are any."""
-    if not sensitivities:
+    if not (sensitivities := checks.numbers_named(sensitivities, where)):
         return []
     from .sensitivity.parameters import parameters_of
 
@@ -195,18 +195,18 @@ def simulate(
             "such as start=ancf.equilibrium(model)",
         )
     checks.progress(progress, "simulate.progress")
+    parameters = _parameters(model, sensitivities, SENSITIVITIES[1])
     made = prepared(
         model,
         method=method_of(integrator),
         t_end=t_end,
         step=step,
         start=start,
-        output_step=None if sensitivities else output_step,
+        output_step=None if parameters else output_step,
         sensors=sensors,
         energy=energy,
-        ends=bool(sensitivities),
+        ends=bool(parameters),
     )
-    parameters = _parameters(model, sensitivities, SENSITIVITIES[1])
     if parameters and controller is not None:
         raise ModelError(SENSITIVITIES[1], "a controller has no derivatives", "give one of both")
     if controller is not None:

@@ -1,8 +1,10 @@
 """What is asked of lines, forms and runs with a thing of another kind is answered by name, never silently."""
 
+import re
 from functools import cache
 
 import numpy as np
+import pandas as pd
 import pytest
 
 import ancf
@@ -203,3 +205,45 @@ def test_beside_the_line_there_is_no_wire(wire, track, begin):
         ask(track if isinstance(track, str) else begin + track)
     for inside in (0.0, 1e-9, 83.0, 166.0):
         assert ask(begin + inside).initial_position[0] == pytest.approx(begin + inside, abs=1e-3)
+
+
+TABLE = pd.DataFrame({"a": [1.0, 2.0]})
+#: What is asked with another kind, the place that is named, and which of the others it may be.
+OTHERS = {
+    "text": "x",
+    "array": np.ones(2),
+    "table": TABLE,
+    "mapping": {"a": 1},
+    "class": dict,
+    "object": object(),
+}
+ASKED_TOO = [
+    (lambda o: catenary.run(found(), **GIVEN, control_delay=o), "run.control_delay", ()),
+    (lambda o: catenary.run(found(), **GIVEN, sensitivities=o), "run.sensitivities", ()),
+    (lambda o: short_line().height_at(o), "line.height_at.track", ("array", "table")),
+    (lambda o: short_line().dropper_label(o), "line.dropper_label.j", ()),
+    (lambda o: short_line().arm(o), "line.arm.k", ()),
+    (lambda o: found().arm(o), "line.arm.k", ()),
+    (lambda o: _wire().times(o), "wire.times.count", ()),
+    (lambda o: _wire().section(o), "wire.section.rayleigh", ()),
+    (lambda o: collector().force(o), "pantograph.force.speed", ("array", "table")),
+    (lambda o: collector().slopes(o), "pantograph.slopes.speed", ()),
+    (lambda o: catenary.statistics(RUN)[o], "statistics", ()),
+]
+
+
+@pytest.mark.parametrize(
+    ("ask", "where", "kind"),
+    [(ask, where, kind) for ask, where, taken in ASKED_TOO for kind in OTHERS if kind not in taken],
+)
+def test_tables_and_arrays_are_named(ask, where, kind):
+    """They ended with TypeError, ValueError, AttributeError or IndexError."""
+    with pytest.raises(ModelError, match=re.escape(where)):
+        ask(OTHERS[kind])
+
+
+@pytest.mark.parametrize("roof", [0.51, [1.0], {"up": -2.0}])
+def test_a_roof_that_is_far_up(roof):
+    """A metre took half a minute to say that there is no equilibrium."""
+    with pytest.raises(ModelError, match=r"run\.roof.*at most 0\.5 m"):
+        catenary.run(found(), **GIVEN, roof=roof)

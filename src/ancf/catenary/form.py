@@ -167,8 +167,8 @@ class Form(Pictured):
 
     def arm(self, k: int) -> SteadyArm:
         """Steady arm of a support, with the side on which it stands."""
-        arm, side = self.line.arm(k), self.arm_sides[k] if self.arm_sides else ""
-        return arm if arm.side is not None or not side else replace(arm, side=side)
+        arm, sides = self.line.arm(k), self.arm_sides or ("",) * (k + 1)
+        return arm if arm.side is not None or not sides[k] else replace(arm, side=sides[k])
 
     @property
     def support_height(self) -> FloatArray:

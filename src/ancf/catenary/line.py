@@ -352,7 +352,7 @@ class Line:
 
     def height_at(self, track: Any) -> Any:
         """Nominal heights of the contact wire at track positions, m: straight between the supports."""
-        return np.interp(track, self.supports, self.heights)
+        return np.interp(checks.floats(track, "line.height_at.track"), self.supports, self.heights)
 
     @property
     def heights(self) -> tuple[float, ...]:
@@ -374,8 +374,8 @@ class Line:
 
     def arm(self, k: int) -> SteadyArm:
         """Steady arm of a support."""
-        arm: SteadyArm = self.steady_arm[k] if isinstance(self.steady_arm, tuple) else self.steady_arm
-        return arm
+        checks.integer(k, "line.arm.k", 0, len(self.spans))
+        return self.steady_arm[k] if isinstance(self.steady_arm, tuple) else self.steady_arm  # type: ignore[no-any-return]
 
     def loads_on(self, wire: str) -> list[Load]:
         """Masses on "contact" or "messenger", in the order of the track."""
@@ -389,12 +389,12 @@ class Line:
 
     def dropper_label(self, j: int) -> str:
         """Place of a dropper in the description: ``line.spans[2].droppers[3]``."""
-        span, number = int(self.dropper_span[j]), int(self.dropper_number[j])
+        k = checks.integer(j, "line.dropper_label.j", 0, self.dropper_x.size - 1)
+        span, number = int(self.dropper_span[k]), int(self.dropper_number[k])
         if span < len(self.rows) and ".csv" in self.rows[span]:
             return f"{self.rows[span].removesuffix('column ')}dropper {number + 1} of its span"
         return f"line.spans[{span}].droppers[{number // self.contact_wires}]"
 
     def excerpt(self, first: int, count: int) -> Line:
         """The line of `count` spans from span `first` on, anchored at its own ends."""
-        cut: Line = excerpt(self, first, count)
-        return cut
+        return excerpt(self, first, count)  # type: ignore[no-any-return]

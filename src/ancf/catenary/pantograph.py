@@ -161,6 +161,7 @@ class Pantograph:
 
     def slopes(self, speed: float = 0.0) -> tuple[float, ...]:
         """Stiffness of each spring where it carries what it has to at rest, N/m; the lowest relaxed."""
+        speed = checks.number(speed, "pantograph.slopes.speed")
         held = [
             0.0,
             *(stage.elongation(-self.carried(k + 1, speed)) for k, stage in enumerate(self.stages[1:])),
@@ -172,7 +173,9 @@ class Pantograph:
 
     def force(self, speed: Any) -> Any:
         """Static and aerodynamic force at a speed in m/s, or at several, N."""
-        return self.static_force + sum(self.aerodynamics) * speed**2
+        return (
+            self.static_force + sum(self.aerodynamics) * checks.floats(speed, "pantograph.force.speed") ** 2
+        )
 
     def carried(self, k: int, speed: float) -> float:
         """Force in the spring below mass k > 0 at rest: what lifts the masses below it, N."""

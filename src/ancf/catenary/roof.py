@@ -18,7 +18,7 @@ WAYS = ("up", "side")
 #: Difference of times for the velocity at the start, s.
 SHORT = 1e-6
 #: Motions of a roof beyond this, m, are a slip of units.
-FAR = 1.0
+FAR = 0.5
 
 
 @dataclass(frozen=True)

@@ -152,6 +152,9 @@ def run(
         chatters, and with `reduce` a line that is hardly damped or whose supports are lifted by 0.1 m.
     """
     checks.progress(progress, "run.progress")
+    delay = checks.non_negative(control_delay, "run.control_delay")
+    hint = 'the droppers of each parameter: {"first": ["6-1", "7-1"]}'
+    sensitivities = checks.mapping(sensitivities, "run.sensitivities", hint)
     plan = planned(
         line,
         speed=speed,
@@ -176,11 +179,11 @@ def run(
     if sensitivities:
         check_run(plan, sensitivities, controller, integrator)
     if controller is None:
-        for key, value in (("control_step", control_step), ("control_delay", control_delay or None)):
+        for key, value in (("control_step", control_step), ("control_delay", delay or None)):
             if value is not None:
                 raise ModelError(f"run.{key}", "has no effect without controller", "leave it out")
-    elif checks.non_negative(control_delay, "run.control_delay"):
-        controller = Delayed(controller, control_delay)
+    elif delay:
+        controller = Delayed(controller, delay)
     led: dict[str, Any] = (
         {} if controller is None else {"controller": controller, "control_step": control_step}
     )

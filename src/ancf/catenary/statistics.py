@@ -64,7 +64,7 @@ class Statistics(Told, Mapping[str, Quantity]):
 
     def __getitem__(self, key: str) -> Quantity:
         for quantity in self.quantities:
-            if quantity.key == key:
+            if isinstance(key, str) and quantity.key == key:
                 return quantity
         known = list(self)
         hint = f"{checks.nearest(key, known)} known are {', '.join(known)}".strip()

@@ -114,7 +114,7 @@ class Wire:
 
     def times(self, count: int) -> Wire:
         """Several such wires side by side that act as one, each under the tension of this one."""
-        if count == 1:
+        if checks.integer(count, "wire.times.count", 1, 1000) == 1:
             return self
         added: dict[str, Any] = {
             key: count * getattr(self, key) for key in ("EA", "EI", "mass", "tension", "damping", "drag")
@@ -180,6 +180,7 @@ class Wire:
             given |= {"diameter": self.diameter, "drag": (self.drag, 0.0)}
         if rayleigh is None:
             return ancf.Section(**given)
+        checks.kind(rayleigh, "wire.section.rayleigh", Rayleigh, "Rayleigh(alpha=0.0125, beta=1e-4)")
         given["damping"] = stretch * (self.damping + rayleigh.alpha * self.mass)
         given["axial_damping"] = rayleigh.beta * self.EA
         given["bending_damping"] = rayleigh.beta * self.EI

@@ -110,7 +110,7 @@ def columns_of(data: Any) -> dict[str, FloatArray]:
 
 
 def _column(given: Any, where: str) -> FloatArray:
-    values = [float("nan") if isinstance(x, str) and not x.strip() else x for x in list(given)]
+    values = [float("nan") if isinstance(x, str) and not x.strip() else x for x in checks.items(given, where)]
     try:
         return np.array([float(x) for x in values])
     except (TypeError, ValueError):

@@ -127,6 +127,16 @@ def mapping(value: object, where: str, hint: str = "") -> dict[Any, Any]:
     return dict(value or {})
 
 
+def numbers_named(value: Any, where: str) -> Any:
+    """Numbers of a model by which derivatives are wanted, a list or a mapping; none of None."""
+    if value is None:
+        return ()
+    if isinstance(value, str | bytes) or not isinstance(value, Mapping | Sequence):
+        what = f"must be a list of names of numbers, is {shown(value)}"
+        raise ModelError(where, what, 'such as ["beam.EI", "gravity"], or {name: (value, build)}')
+    return value
+
+
 def path(value: object, where: str) -> Path:
     """A path, or the text of one."""
     if not isinstance(value, str | os.PathLike):
@@ -154,6 +164,17 @@ def array(value: object, where: str, shape: tuple[int | None, ...]) -> FloatArra
     )
     if not fits:
         raise ModelError(where, f"has shape {clean.shape}, wanted {_shape_text(shape)}")
+    return clean
+
+
+def floats(value: object, where: str) -> FloatArray:
+    """A float array of any shape, which a number is too."""
+    try:
+        clean: FloatArray = np.asarray(value, dtype=np.float64)
+    except (TypeError, ValueError, OverflowError):
+        raise ModelError(where, f"must be a number or an array of them, is {shown(value)}") from None
+    if value is None:  # numpy takes it for NaN
+        raise ModelError(where, "must be a number or an array of them, is None")
     return clean
 
 

@@ -169,7 +169,7 @@ class Led:
     def _place(self, name: Any) -> int:
         """Column of an input."""
         label, names = getattr(name, "name", name), self._history().names
-        if label not in self.model.inputs or label not in names:
+        if not isinstance(label, str) or label not in self.model.inputs or label not in names:
             raise unknown("input", "input", str(label), names)
         return names.index(label)
 

@@ -6,6 +6,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ..model import checks
+
 if TYPE_CHECKING:  # names for annotations; at run time only the methods import from above
     from ..viz.pictures.animation import Animation
     from ..viz.pictures.picture import Picture
@@ -141,7 +143,7 @@ class Filmed(Plotted):
         """
         from ..viz.export import write_csv
 
-        return write_csv(self, folder, _labels(points))  # type: ignore[arg-type]
+        return write_csv(self, checks.path(folder, "result.to_csv.folder"), _labels(points))  # type: ignore[arg-type]
 
     def to_excel(self, path: str | Path, points: Sequence[Any] | None = None) -> Path:
         """Write the same tables as the sheets of one workbook, ``.xlsx``, as ``ancf export --to xlsx`` does.
@@ -161,7 +163,7 @@ class Filmed(Plotted):
         """
         from ..viz.export import write_xlsx
 
-        return write_xlsx(self, path, _labels(points))  # type: ignore[arg-type]
+        return write_xlsx(self, checks.path(path, "result.to_excel.path"), _labels(points))  # type: ignore[arg-type]
 
     def view(self, *, height: int = 600, **options: Any) -> Framed:
         """The page of ``ancf view``: the moving model with its plots.

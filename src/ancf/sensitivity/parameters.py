@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -125,9 +125,7 @@ def parameters_of(model: Model, given: Any, where: str) -> list[Parameter]:
     """
     if isinstance(given, Mapping):
         return [_built(name, item, f"{where}.{name}") for name, item in given.items()]
-    if isinstance(given, str | bytes) or not isinstance(given, Sequence):
-        what = f"must be a list of names of numbers, is {checks.shown(given)}"
-        raise ModelError(where, what, 'such as ["beam.EI", "gravity"], or {name: (value, build)}')
+    given = checks.numbers_named(given, where)
     made: list[Parameter] = []
     kept = model.snapshot()
     for k, item in enumerate(given):
