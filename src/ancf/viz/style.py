@@ -89,6 +89,7 @@ LOOKS = (
 #: Units of what can be asked of a state or a result, by the name of the question.
 UNITS = {
     "t": "s",
+    "input": "",  # each has its own
     "position": "m",
     "velocity": "m/s",
     "speed": "m/s",
