@@ -23,15 +23,15 @@ from .form import Form
 from .passing import check_run as check_run_of
 from .passing import in_window, uplift_in_window
 from .run_data import RunSlopes
-from .signals import BANDS, Butterworth, filter_of, sample_rate
+from .signals import Butterworth, filter_of, sample_rate
 from .twin import second_supports
+from .weights import MM, OF_BANDS, extreme_of, of_filtered
 
 if TYPE_CHECKING:
     from .plan import Plan
     from .run_data import Run
 
 WHERE = "run.sensitivities"
-MM = 1e3
 #: What lengths of droppers act on: these, their clamps and the weight of both.
 LENGTHS = Acts(frozenset((SPRINGS, BODIES)), weighs=True)
 
@@ -236,10 +236,8 @@ class Linearised:
         self.raw = np.stack([x[window] for x in histories])  # (1 + p, n): the force, its derivatives
         self.force = np.stack([chosen.low_pass(x, rate)[window] for x in histories])
         self.bands = {
-            f"deviation_{low:g}_{high:g}": np.stack(
-                [chosen.band(x, rate, low, high)[window] for x in histories]
-            )
-            for low, high in BANDS[1:]
+            key: np.stack([chosen.band(x, rate, low, high)[window] for x in histories])
+            for key, (low, high) in OF_BANDS.items()
         }
         self.uplift: FloatArray | None = None
         if uplifts := uplift_in_window(run, pantograph):
@@ -252,9 +250,14 @@ class Linearised:
     def at(self, changes: FloatArray) -> dict[str, tuple[float, FloatArray]]:
         """Statistics and their derivatives (p,) with changes (p,) of the parameters, in m, by quantity."""
         along = np.concatenate([[1.0], changes])
-        made = _of_force(along @ self.raw, self.raw[1:], along @ self.force, self.force[1:])
+        found = of_filtered(along @ self.force)
+        made = {key: (value, self.force[1:] @ by) for key, (value, by) in found.items()}
+        for key in ("raw_maximum", "raw_minimum"):
+            value, by = extreme_of(along @ self.raw, key)
+            made[key] = value, self.raw[1:] @ by
         for key, band in self.bands.items():
-            made[key] = _deviation(along @ band, band[1:])
+            value, by = of_filtered(along @ band)["deviation"]
+            made[key] = value, band[1:] @ by
         if self.uplift is not None:
             made["uplift"] = float(along @ self.uplift), self.uplift[1:]
         return made
@@ -266,29 +269,3 @@ class Linearised:
             name: {key: float(rates[k]) for key, (_, rates) in found.items()}
             for k, name in enumerate(self.names)
         }
-
-
-def _of_force(
-    raw: FloatArray, raw_rates: FloatArray, force: FloatArray, rates: FloatArray
-) -> dict[str, tuple[float, FloatArray]]:
-    """Statistics of a force (n,) and their derivatives (p,), by those of the histories, (p, n)."""
-    average, means = float(np.mean(force)), np.mean(rates, axis=1)
-    sigma, sigmas = _deviation(force, rates)
-    most, least = np.argmax(force), np.argmin(force)
-    raw_most, raw_least = np.argmax(raw), np.argmin(raw)
-    return {
-        "mean_force": (average, means),
-        "deviation": (sigma, sigmas),
-        "mean_plus_3_sigma": (average + 3.0 * sigma, means + 3.0 * sigmas),
-        "mean_minus_3_sigma": (average - 3.0 * sigma, means - 3.0 * sigmas),
-        "maximum": (float(force[most]), rates[:, most]),
-        "minimum": (float(force[least]), rates[:, least]),
-        "raw_maximum": (float(raw[raw_most]), raw_rates[:, raw_most]),
-        "raw_minimum": (float(raw[raw_least]), raw_rates[:, raw_least]),
-        "relative_deviation": (sigma / average, (sigmas - sigma * means / average) / average),
-    }
-
-
-def _deviation(x: FloatArray, rates: FloatArray) -> tuple[float, FloatArray]:
-    size = float(np.std(x))
-    return size, rates @ (x - np.mean(x)) / (len(x) * size) if size > 0.0 else np.zeros(len(rates))

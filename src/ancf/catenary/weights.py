@@ -49,31 +49,32 @@ def weights_of(run: Run, number: str, pantograph: int, chosen: Butterworth) -> W
         column = most.number - 1
         return Weights(MM * most.uplift, made, (int(np.argmax(run.uplift[:, column] == most.uplift)), column))
     if number.startswith("raw"):
-        value, made[window] = _extreme(raw[window], number)
+        value, made[window] = extreme_of(raw[window], number)
         return Weights(value, made, None)
     low, high = OF_BANDS.get(number, BANDS[0])
-    value, made[window] = _of_filtered(chosen.band(raw, rate, low, high)[window], number)
+    found = of_filtered(chosen.band(raw, rate, low, high)[window])
+    value, made[window] = found.get(number, found["deviation"])
     return Weights(value, chosen.band_back(made, rate, low, high), None)
 
 
-def _extreme(x: FloatArray, number: str) -> tuple[float, FloatArray]:
-    """The largest or the least, and its derivatives by the samples."""
+def extreme_of(x: FloatArray, number: str) -> tuple[float, FloatArray]:
+    """The largest or the least of samples, as a name ends, and its derivatives by them."""
     k, made = int(np.argmax(x) if number.endswith("maximum") else np.argmin(x)), np.zeros_like(x)
     made[k] = 1.0
     return float(x[k]), made
 
 
-def _of_filtered(x: FloatArray, number: str) -> tuple[float, FloatArray]:
-    """A number of a filtered force, and its derivatives by the samples."""
-    if number in ("maximum", "minimum"):
-        return _extreme(x, number)
+def of_filtered(x: FloatArray) -> dict[str, tuple[float, FloatArray]]:
+    """Numbers of a filtered force (n,) and their derivatives (n,) by its samples."""
     mean, sigma, n = float(np.mean(x)), float(np.std(x)), len(x)
     means = np.full(n, 1.0 / n)
     sigmas = (x - mean) / (n * sigma) if sigma > 0.0 else np.zeros(n)
-    found = {
+    return {
         "mean_force": (mean, means),
+        "deviation": (sigma, sigmas),
         "mean_plus_3_sigma": (mean + 3.0 * sigma, means + 3.0 * sigmas),
         "mean_minus_3_sigma": (mean - 3.0 * sigma, means - 3.0 * sigmas),
+        "maximum": extreme_of(x, "maximum"),
+        "minimum": extreme_of(x, "minimum"),
         "relative_deviation": (sigma / mean, (sigmas - sigma * means / mean) / mean),
     }
-    return found.get(number, (sigma, sigmas))

@@ -204,11 +204,8 @@ def unknowns_of(system: System, pair: Key) -> IntArray:
     behind = _between(item) if quantity == "twist" else []
     found = [listing(system, [item, *behind], False, ends=True).index]
     if quantity in ALONG_CARRIER and isinstance(item, Slide):
-        batch, slides = (
-            system.parts["slides"],
-            [one for one in system.model.connections if isinstance(one, Slide)],
-        )
-        j = slides.index(item)
+        slides = [one for one in system.model.connections if isinstance(one, Slide)]
+        batch, j = system.parts["slides"], slides.index(item)
         slots = np.unique(batch.line_slot[batch.first[j] : batch.first[j + 1]])
         found.append((slots[slots >= 0, None] + np.arange(3)).ravel())
     return np.unique(np.concatenate(found)).astype(np.int64)

@@ -79,7 +79,7 @@ def formulas_of(model: Model, outputs: Any) -> dict[str, Formula]:
 def unit_of(formula: Formula) -> str:
     """Unit of a formula that is one question, else ""."""
     found = PLAIN.fullmatch(formula.text)
-    return ({ACCELERATION: "m/s^2"} | UNITS).get(found[1], "") if found else ""
+    return (({ACCELERATION: "m/s^2"} | UNITS).get(found[1]) or "") if found else ""
 
 
 class _Found:

@@ -39,22 +39,20 @@ Asked = Callable[[Face, Iterable[Key]], dict[Key, FloatArray]]
 
 def is_metered(system: System, key: Key) -> bool:
     """Whether a question is one that a contact of a strip measures."""
-    name = {item.name for item in system.model.connections if isinstance(item, Contact)}
-    return key[0] in METERED and key[1] in name
+    return key[0] in METERED and key[1] in _strips(system)
 
 
 def touched_by(system: System, name: str) -> IntArray:
     """Entries of the state vectors on which a contact of a strip depends: of its point and all its wire."""
-    batch, j = system.parts[STRIPS], _row(system, name)
+    batch, j = system.parts[STRIPS], _strips(system).index(name)
     slots = np.concatenate([batch.slot[j], batch.line_slot[batch.first[j] : batch.first[j + 1]].ravel()])
     found: IntArray = (np.unique(slots[slots >= 0])[:, None] + np.arange(3)).ravel()
     return found
 
 
-def _row(system: System, name: str) -> int:
-    """Number of a contact in its batch."""
-    names = [item.name for item in system.model.connections if isinstance(item, Contact)]
-    return names.index(name)
+def _strips(system: System) -> list[str]:
+    """Names of the contacts of strips, in the order of their batch."""
+    return [item.name for item in system.model.connections if isinstance(item, Contact)]
 
 
 class Objective:
@@ -126,9 +124,10 @@ class Objective:
         if self._meters is None:
             return
         weights = np.zeros((len(q), 4 * len(self.system.parts[STRIPS].slot)))
+        names = _strips(self.system)
         for key in self._metered:
             column, sign = METERED[key[0]]
-            weights[:, 4 * _row(self.system, key[1]) + column] += sign * slopes[key]
+            weights[:, 4 * names.index(key[1]) + column] += sign * slopes[key]
         states = np.ascontiguousarray(q), np.ascontiguousarray(v)
         measured_works(self._meters, *states, weights, self.unknowns, np.zeros((2, q.shape[1])), made)
 

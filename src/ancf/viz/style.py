@@ -87,9 +87,9 @@ LOOKS = (
 )
 
 #: Units of what can be asked of a state or a result, by the name of the question.
-UNITS = {
+UNITS: dict[str, str | None] = {
     "t": "s",
-    "input": "",  # each has its own
+    "input": None,  # each has its own
     "position": "m",
     "velocity": "m/s",
     "speed": "m/s",
@@ -230,8 +230,9 @@ def axis_label(quantity: str, component: str = "") -> str:
     """Label with unit: "tension [N]", "velocity x [m/s]", "strain [-]"; other names stay as they are."""
     if quantity not in UNITS:
         return quantity
-    name = SYMBOLS.get(quantity, quantity.replace("_", " "))
-    return f"{name}{f' {component}' if component else ''} [{UNITS[quantity] or '-'}]"
+    name, unit = SYMBOLS.get(quantity, quantity.replace("_", " ")), UNITS[quantity]
+    named = f"{name} {component}" if component else name
+    return named if unit is None else f"{named} [{unit or '-'}]"
 
 
 def legend_above(figure: Figure, axes: Axes, columns: int = 4) -> None:
