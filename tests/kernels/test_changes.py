@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+import ancf
 from ancf.batches import Batches
 from ancf.compiled import add_changes, does_something, traits
 from ancf.elements.cable_columns import DAMPED, INV_L, LENGTH
@@ -116,3 +117,32 @@ def test_kinds_that_know_have_kinds():
     model, _ = cable("material", 3, "straight")
     for batch in System(model).parts.values():
         assert does_something(type(batch), add_changes) == (traits(batch).kinds is not None)
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_of_springs(seed):
+    """Slack ones that carry or not, with friction, with a law; a change of all and of some springs."""
+    model = ancf.Model()
+    rng = np.random.default_rng(seed)
+    curve = {"law": [(-9.0, -90.0), (9.0, 60.0)]}
+    kinds = [{"slack": True}, {"slack": True, "damping": 3.0}, {"friction": 2.0, "damping": 1.0}, curve]
+    for k, given in enumerate([*kinds, *kinds]):
+        a, b = (model.add_point_mass(f"{end}{k}", at=rng.uniform(-1, 1, 3), mass=1.0) for end in "ab")
+        length = 3.0 if k == 4 else 0.1  # this one is slack
+        model.add_spring(a, b if k % 2 else (0, 0, 0), stiffness=40.0, length=length, name=f"s{k}", **given)
+    system = System(model)
+    batch, q = system.parts["springs"], system.initial_state(0.0)[0]
+    way = Way(q[None].copy(), rng.uniform(-0.1, 0.1, (1, system.size)), np.zeros((1, system.size)))
+    whole = sized(batch.data, rng)
+    whole[:, [3, 6]] = 0.0  # flags
+    some = np.zeros_like(whole)
+    some[2:5] = whole[2:5]
+    found = found_by_kernel(system, [None, whole.ravel(), some.ravel()], way, "springs")
+    assert not found[0].any()
+    for own, change in zip(found[1:], (whole, some), strict=True):
+
+        def moved(e, change=change):
+            return forces(system, batch._replace(data=batch.data + e * change), way)
+
+        wanted = slope(moved)
+        assert np.abs(own - wanted).max() <= 1e-9 * np.abs(wanted).max()

@@ -190,6 +190,19 @@ def spring_rate_work(batch, q, v, x, out, ws):
                     out[i + m] += batch.factor[e, k] * y[m]
 
 
+@formula
+def spring_by_numbers(batch, e, length, rate):
+    """Derivatives of the tension of a spring that carries, by its numbers but the two flags."""
+    extension = length - batch.data[e, LENGTH]
+    by_length = -(batch.data[e, STIFFNESS] + looked_up(batch, 2 * e, extension)[1])
+    share, by_creep = 0.0, 0.0
+    if batch.data[e, SLACK] == 0.0:
+        creep = batch.data[e, CREEP]
+        share = math.tanh(rate / creep)
+        by_creep = -batch.data[e, FRICTION] * (1.0 - share * share) * rate / creep**2
+    return extension, rate, by_length, share, by_creep
+
+
 @inline_kernel
 def spring_number_work(batch, q, v, a, x, out, ws):
     """See :func:`ancf.compiled.add_number_work`: the numbers of a spring act on its tension alone."""
@@ -200,15 +213,38 @@ def spring_number_work(batch, q, v, a, x, out, ws):
             continue
         dx, dy, dz = spring_vector(batch, e, x, 0.0)
         moved = n[0] * dx + n[1] * dy + n[2] * dz
-        extension, first = length - batch.data[e, LENGTH], columns * e
-        out[first + STIFFNESS] += moved * extension
-        out[first + DAMPING] += moved * rate
-        out[first + LENGTH] -= moved * (batch.data[e, STIFFNESS] + looked_up(batch, 2 * e, extension)[1])
-        if batch.data[e, SLACK] == 0.0:
-            creep = batch.data[e, CREEP]
-            share = math.tanh(rate / creep)
-            out[first + FRICTION] += moved * share
-            out[first + CREEP] -= moved * batch.data[e, FRICTION] * (1.0 - share * share) * rate / creep**2
+        by, first = spring_by_numbers(batch, e, length, rate), columns * e
+        out[first + STIFFNESS] += moved * by[0]
+        out[first + DAMPING] += moved * by[1]
+        out[first + LENGTH] += moved * by[2]
+        out[first + FRICTION] += moved * by[3]
+        out[first + CREEP] += moved * by[4]
+
+
+@inline_kernel
+def spring_changes(batch, q, v, a, rates, kinds, begin, out, ws):
+    """See :func:`ancf.compiled.add_changes`; ``kinds``: the first and the last of the springs that change."""
+    count, columns = batch.data.shape
+    for m in range(begin.shape[0]):
+        for e in range(kinds[2 * m], kinds[2 * m + 1]):
+            n, length, rate, _, carries = spring_state(batch, e, q, v)
+            if batch.data[e, IDLE] != 0.0 or not carries:
+                continue
+            by, first = spring_by_numbers(batch, e, length, rate), columns * (m * count + e)
+            change = rates[first + STIFFNESS] * by[0] + rates[first + DAMPING] * by[1]
+            change += rates[first + LENGTH] * by[2]
+            change += rates[first + FRICTION] * by[3] + rates[first + CREEP] * by[4]
+            for k in range(batch.base.shape[1]):
+                i = batch.base[e, k]
+                if i >= 0:
+                    for c in range(3):
+                        out[begin[m] + i + c] += batch.factor[e, k] * change * n[c]
+
+
+def kinds_of(batch: SpringBatch, rates: FloatArray) -> list[int]:
+    """The first of the springs whose numbers change, and the one behind the last."""
+    rows = np.flatnonzero(np.any(rates.reshape(batch.data.shape) != 0.0, axis=1))
+    return [int(rows[0]), int(rows[-1]) + 1] if len(rows) else [0, 0]
 
 
 @inline_kernel
@@ -270,6 +306,8 @@ implements(
     rate_stiffness=spring_rate_stiffness,
     rate_work=spring_rate_work,
     number_work=spring_number_work,
+    changes=spring_changes,
+    kinds=kinds_of,
     numbers=lambda batch: batch.data.ravel(),
     numbered=("data",),
     role=Role.DISSIPATES | Role.MEASURES,
