@@ -83,10 +83,8 @@ def _hardly_damped(plan: Plan) -> Iterator[str]:
         for part in plan.form.line.parts
     )
     if decay < DECAY:
-        text = (
-            f"run.reduce: damping takes {decay:.2g}/s at {hertz:g} Hz, hardly any: spans that move by their "
-        )
-        text += "modes come out of step with the line, and standard deviations may change by 1 to 2 %; "
+        text = f"run.reduce: damping takes {decay:.2g}/s at {hertz:g} Hz, hardly any: spans that move by "
+        text += "their modes come out of step with the line, and standard deviations may change by 1 to 2 %; "
         yield text + "give line.damping, or leave reduce out"
 
 
