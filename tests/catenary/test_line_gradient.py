@@ -12,7 +12,7 @@ from ancf import catenary
 from ancf.catenary import Butterworth
 from ancf.catenary.file import parse_line
 from ancf.catenary.mesh import Mesh
-from ancf.catenary.weights import NUMBERS
+from ancf.catenary.weights import NUMBERS, of_filtered
 from ancf.sensitivity.adjoint import UnsolvedError
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "droppers_line.toml"
@@ -63,9 +63,12 @@ def test_of_two_pantographs(evaluated):
     agree(line(), ("deviation", "uplift"), evaluated=evaluated, spacing=14.0, start=8.0, until=105.0)
 
 
-def test_twin_wires():
-    """The uplift is that of the higher one, and both press."""
-    agree(line(contact_spacing=0.08), ("mean_force", "uplift"), contact_damping=20.0)
+@pytest.mark.parametrize("broken", [["1-9", "2-1"], ["1-10", "2-2"]], ids=["left", "right"])
+def test_twin_wires(broken):
+    """The uplift is that of the wire that is higher, where its droppers broke, and both press."""
+    given = {"contact_damping": 20.0, "broken_droppers": broken}
+    droppers = {"one": ["2-3"], "other": ["2-4"]}
+    agree(line(contact_spacing=0.08), ("mean_force", "uplift"), droppers, **given)
 
 
 def test_a_wire_that_is_not_even(tmp_path):
@@ -94,6 +97,30 @@ def test_forwards_where_the_adjoint_cannot(monkeypatch):
 
     monkeypatch.setattr("ancf.sensitivity.adjoint_sloped.SlopedAdjoint.backwards", unsolved)
     agree(line(), ("deviation",), off=1e-14)
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_derivatives_of_numbers(seed):
+    """Against differences of numpy's mean and deviation, sample by sample."""
+    x, of = (
+        np.random.default_rng(seed).uniform(80.0, 150.0, 40),
+        {
+            "mean_force": np.mean,
+            "deviation": np.std,
+            "mean_plus_3_sigma": lambda y: np.mean(y) + 3.0 * np.std(y),
+            "mean_minus_3_sigma": lambda y: np.mean(y) - 3.0 * np.std(y),
+            "maximum": np.max,
+            "minimum": np.min,
+            "relative_deviation": lambda y: np.std(y) / np.mean(y),
+        },
+    )
+    found = of_filtered(x)
+    assert found.keys() == of.keys()
+    for key, number in of.items():
+        value, by = found[key]
+        assert value == pytest.approx(number(x), rel=1e-14), key
+        wanted = [(number(x + 1e-3 * e) - number(x - 1e-3 * e)) / 2e-3 for e in np.eye(len(x))]
+        assert by == pytest.approx(np.array(wanted), abs=1e-8), key
 
 
 @pytest.mark.parametrize("order", [1, 4, 6])
