@@ -25,7 +25,11 @@ VERSION, MARKS, END, HEAD = 8, 11, slice(28, 36), 48
 #: Groups in groups: bodies/NAME/slots.
 DEEPEST = 2
 #: Pauses before another look at a file that a run may be writing just now, s.
-PAUSES = (0.0, 0.05, 0.1, 0.2, 0.4)
+PAUSES = (0.05, 0.1, 0.2, 0.4)
+#: How long a file that grows is looked at anew at once, s.
+LIVELY = 20.0
+#: More bytes than any file has.
+EVERYTHING = 1 << 60
 #: What HDF5 and h5py raise about a damaged file.
 DAMAGED = (
     OSError,
@@ -103,9 +107,9 @@ def _head(path: Path) -> tuple[bytes, int]:
 
 def _growing(path: Path) -> Any:
     """Open a file that is marked as being written, after all of it could be read once."""
-    found: Exception | None = None
-    for pause in PAUSES:
-        time.sleep(pause)
+    begun, pauses = time.monotonic(), iter(PAUSES)
+    while True:
+        size = path.stat().st_size
         try:
             with Unmarked(path) as plain, h5py.File(plain, "r") as file:
                 _look_over(path, file, whole=True)
@@ -113,9 +117,12 @@ def _growing(path: Path) -> Any:
         except ModelError:
             raise
         except DAMAGED as error:
-            found = error
-    assert found is not None
-    raise damaged(path, found)
+            if path.stat().st_size > size and time.monotonic() < begun + LIVELY:
+                continue  # read while a run wrote it
+            pause = next(pauses, None)
+            if pause is None:
+                raise damaged(path, error) from None
+            time.sleep(pause)
 
 
 def _look_over(path: Path, file: Any, whole: bool = False) -> None:
@@ -172,14 +179,17 @@ def _inside(data: Any, layout: int, path: Path) -> None:
 
 
 class Unmarked:
-    """A file without the mark of its writer, as what h5py takes for a file."""
+    """A file without the mark of its writer, as what h5py takes for a file.
+
+    It says to be longer than any file: what its writer appends after it was opened is not beyond its end.
+    """
 
     def __init__(self, path: Path) -> None:
-        self._file = path.open("rb")
-        self.size = os.fstat(self._file.fileno()).st_size
+        self._file = path.open("rb", buffering=0)
+        self._at = 0
         head = bytearray(self._file.read(HEAD))
         head[MARKS] = 0
-        head[END] = self.size.to_bytes(8, "little")
+        head[END] = EVERYTHING.to_bytes(8, "little")
         head[HEAD - 4 :] = checksum(bytes(head[: HEAD - 4])).to_bytes(4, "little")
         self._head = bytes(head)
 
@@ -189,21 +199,28 @@ class Unmarked:
     def __exit__(self, *error: object) -> None:
         self._file.close()
 
-    def seek(self, offset: int, whence: int = 0) -> int:
+    def seek(self, offset: int, whence: int = os.SEEK_SET) -> int:
         """Go to a place."""
-        return self._file.seek(offset, whence)
+        self._at = offset + {os.SEEK_SET: 0, os.SEEK_CUR: self._at, os.SEEK_END: EVERYTHING}[whence]
+        return self._at
 
     def tell(self) -> int:
         """Place now."""
-        return self._file.tell()
+        return self._at
 
     def readinto(self, buffer: Any) -> int:
         """Read from the place on."""
-        at = self.tell()
-        count = self._file.readinto(buffer)
-        own = self._head[at : at + count]
-        memoryview(buffer).cast("B")[: len(own)] = own
-        return int(count)
+        data = memoryview(buffer).cast("B")
+        self._file.seek(self._at)
+        count = self._file.readinto(data)
+        if count < len(data):
+            raise OSError(
+                f"it is cut off: {self._at + count} of at least {self._at + len(data)} bytes are there"
+            )
+        own = self._head[self._at : self._at + count]
+        data[: len(own)] = own
+        self._at += count
+        return count
 
     def read(self, count: int) -> bytes:
         """Read from the place on; h5py asks for this method of what it takes for a file."""
@@ -216,7 +233,7 @@ class Unmarked:
 
     def truncate(self, size: int | None = None) -> int:
         """Leave the length as it is."""
-        return self.size
+        return EVERYTHING
 
     def flush(self) -> None:
         """Nothing is written."""
