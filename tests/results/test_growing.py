@@ -11,7 +11,8 @@ WRITER = """
 import sys
 import h5py
 with h5py.File(sys.argv[1], "w", libver="latest") as file:
-    data = [file.create_dataset(f"s{k}", (0, 4), maxshape=(None, 4), chunks=(16, 4), dtype=float) for k in range(2)]
+    form = {"shape": (0, 4), "maxshape": (None, 4), "chunks": (16, 4), "dtype": float}
+    data = [file.create_dataset(name, **form) for name in ("s0", "s1")]
     file.swmr_mode = True
     for line in sys.stdin:
         for each in data:
