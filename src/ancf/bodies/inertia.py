@@ -60,11 +60,18 @@ def body_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
                 A[place + 7 * c] += c_mass * batch.mass[n]
 
 
+@inline_kernel
+def body_tangent_work(batch, q, v, x, by_q, by_v, by_a, ws):
+    """See :func:`ancf.compiled.add_tangent_work`."""
+    body_inertia(batch, x, by_a, ws)
+
+
 implements(
     InertiaBatch,
     force=body_force,
     inertia=body_inertia,
     tangent=body_tangent,
+    tangent_work=body_tangent_work,
     number_work=body_number_work,
     numbers=lambda batch: batch.mass,
     numbered=("mass",),

@@ -141,6 +141,26 @@ def spring_tangent(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
 
 
 @inline_kernel
+def spring_tangent_work(batch, q, v, x, by_q, by_v, by_a, ws):
+    """See :func:`ancf.compiled.add_tangent_work`."""
+    for e in range(batch.base.shape[0]):
+        n, length, rate, tension, carries = spring_state(batch, e, q, v)
+        if batch.data[e, IDLE] != 0.0 or not carries:
+            continue
+        k_slope, c_slope = spring_slopes(batch, e, length, rate)
+        across, d = tension / length, spring_vector(batch, e, x, 0.0)
+        moved = n[0] * d[0] + n[1] * d[1] + n[2] * d[2]
+        along, lost = (k_slope - across) * moved, c_slope * moved
+        for k in range(batch.base.shape[1]):
+            i = batch.base[e, k]
+            if i >= 0:
+                w = batch.factor[e, k]
+                for c in range(3):
+                    by_q[i + c] += w * (along * n[c] + across * d[c])
+                    by_v[i + c] += w * lost * n[c]
+
+
+@inline_kernel
 def spring_rate_stiffness(batch, q, v, S, W, ws):
     """See :func:`ancf.compiled.add_rate_stiffness`: where a spring turns, its rate changes.
 
@@ -301,6 +321,7 @@ implements(
     SpringBatch,
     force=spring_force,
     tangent=spring_tangent,
+    tangent_work=spring_tangent_work,
     energy=spring_energy,
     measure=spring_measure,
     rate_stiffness=spring_rate_stiffness,
