@@ -114,6 +114,25 @@ class TestWhatIsTaken:
         assert joints == [("line1.end", f"line{k}.end") for k in range(2, count + 1)]
         parse_study(tables)
 
+    @pytest.mark.parametrize(
+        ("given", "wanted"),
+        [
+            ({}, (9.80665, 1025.0, 3e6, 3e5, 0.0)),
+            ({"gravity": 1.62}, (1.62, 1025.0, 3e6, 3e5, 0.0)),
+            ({"rho": 998.0, "kb": 2e5}, (9.80665, 998.0, 2e5, 3e5, 0.0)),
+            ({"cb": 7e4, "mu": 0.3}, (9.80665, 1025.0, 3e6, 7e4, 0.3)),
+            ({"g": 9.81, "FrictionCoefficient": 0.6}, (9.81, 1025.0, 3e6, 3e5, 0.6)),
+        ],
+    )
+    def test_what_is_not_given_is_as_in_the_program(self, write, given, wanted):
+        """Its documentation has: g 9.80665, WtrDnsty 1025, kBot 3.0e6, cBot 3.0e5, FrictionCoefficient 0."""
+        options = "\n".join(["80 depth", *(f"{value} {name}" for name, value in given.items())])
+        model = parse_study(import_moordyn(write(options=options)).tables).model
+        ground = model.grounds[0]
+        found = -model.gravity[2], model.fluids[0].density, ground.stiffness, ground.damping, ground.friction
+        assert found == wanted
+        assert ground.height == -80.0
+
     def test_names_of_sections_and_of_points(self, tmp_path):
         other = text().replace("LINE TYPES", "LINE DICTIONARY").replace(" POINTS ", " POINT PROPERTIES ")
         path = tmp_path / "other.dat"
@@ -129,8 +148,8 @@ class TestWhatIsSaid:
     def test_what_has_no_counterpart_is_listed(self, write):
         bodies = "---- BODIES ----\nID Attach X0\n(#) (-) (m)\n1 free 0 0 0\n2 free 0 0 0\n"
         path = write(
-            options=DEEP + "\n1 WaveKin\n0 Currents\n0.5 dtOut\n",
-            outputs="FairTen1 AnchTen1\n",
+            options=DEEP + "\n1 WaveKin\n0 Currents\n0.0 dtWave\n0.5 dtOut\n",
+            outputs="FairTen1 AnchTen1\nEND\n",
             points=TWO + "\n7 Fixed 1 1 1",
         )
         path.write_text(
@@ -192,6 +211,7 @@ class TestWhatIsRefused:
             ({"points": TWO.replace("Vessel", "Turbine1")}, "line 11", 'attached to "Turbine1"'),
             ({"points": TWO.replace("Vessel 0 0 0 0 0", "Free 0 0 0 0 0.5")}, "line 11", "no mass"),
             ({"options": "deep WtrDpth"}, "line 17, wtrdpth", 'is "deep"'),
+            ({"points": TWO.replace("Vessel 0 0 0 0 0 0", "Free 0 0 0 0 0 1.5")}, "line 11", "no mass"),
             ({"lines": ""}, "lines.txt", "has no section with lines"),
         ],
     )

@@ -8,6 +8,7 @@ from scipy.spatial.transform import Rotation
 
 import ancf
 from ancf.contact.near import LEFT, node_moved
+from ancf.contact.rows import rows_in
 from ancf.linalg.sparse import to_sparse
 from ancf.system.contacts import touching
 from ancf.system.core import assemble, keep_memory, residual, restrict
@@ -16,7 +17,7 @@ from ancf.system.system import System
 D, K = 0.02, 1e7
 
 
-def crossed(angle=0.5 * math.pi, gap=-2e-4, shift=0.0, elements=(4, 4), friction=0.0, swapped=False):
+def crossed(angle=0.5 * math.pi, gap=-2e-4, shift=0.0, elements=(4, 4), friction=0.0, swapped=False, **law):
     """Two straight cables without stress that cross at their own places; they are D + gap apart."""
     model = ancf.Model()
     section = ancf.Section(EA=1e5, EI=0.1, rhoA=0.3, diameter=D)
@@ -27,7 +28,7 @@ def crossed(angle=0.5 * math.pi, gap=-2e-4, shift=0.0, elements=(4, 4), friction
     others = -(1.0 - 0.7 * shift) * way, (1.0 + 0.7 * shift) * way
     a = model.add_beam("a", start=ends[0], end=ends[1], elements=elements[0], section=section)
     b = model.add_beam("b", start=others[0], end=others[1], elements=elements[1], section=section)
-    model.add_contact(*((b, a) if swapped else (a, b)), stiffness=K, friction=friction, name="touch")
+    model.add_contact(*((b, a) if swapped else (a, b)), stiffness=K, friction=friction, name="touch", **law)
     return System(model)
 
 
@@ -175,6 +176,25 @@ def test_rows_are_the_stiffness():
         e[i] = step
         found[:, i] = (forces(system, q - e) - forces(system, q + e))[:n] / (2 * step)
     assert np.abs(found - whole).max() < 0.02 * np.abs(found).max()
+
+
+@pytest.mark.parametrize("angle", [1.0, 0.6, 0.3, 2.8])
+@pytest.mark.parametrize(
+    "pulled", [(0.0, 0.0), (1e-5, 2e-6), (-3e-4, 1e-4)], ids=["at rest", "drawn", "slips"]
+)
+def test_rows_are_the_damping(angle, pulled):
+    """All of it, normal and along, and of what slips the part across the way that it is drawn."""
+    system = crossed(angle, -1e-4, 0.03, (1, 2), friction=0.5, damping=2e3, stick=2e6)
+    q, v = system.initial_state()
+    keep_memory(system.core.remembering, q, v)
+    q[system.slots["a"][:, 0]] += pulled[0]
+    q[system.slots["a"][:, 0] + 1] += pulled[1]
+    rows, _, damping = rows_in(system.parts["crossing"], q)
+    step, found = 1e-6, np.empty((len(q), len(q)))
+    for i, e in enumerate(step * np.eye(len(q))):
+        found[:, i] = (forces(system, q, -e) - forces(system, q, e)) / (2 * step)
+    assert len(damping) == len(rows) > 10
+    assert np.abs(found - (rows.T * damping) @ rows).max() < 1e-8 * np.abs(found).max()
 
 
 class TestNear:
