@@ -127,6 +127,25 @@ def test_finer_mesh_lies_on_the_given_shape(natural):
     assert new.node_x[1::2] == pytest.approx(0.5 * (arch.node_x[:-1] + arch.node_x[1:]))
 
 
+@pytest.mark.parametrize("parts", [(0.5, 0.5), (0.1, 0.2, 0.7), (0.6, 0.05, 0.25, 0.1)])
+@pytest.mark.parametrize("longer", [1.0, 1.02])
+def test_new_nodes_lie_at_their_lengths_along_the_shape(parts, longer):
+    """Also between nodes at uneven distances that were given: on a circle the angle is the length."""
+    model, u = ancf.Model(), np.concatenate([[0.0], np.cumsum(parts)])
+    model.add_beam(
+        "arch",
+        path=lambda u: (np.cos(np.pi * u), 0.0, np.sin(np.pi * u)),
+        nodes=u * np.pi * longer,
+        length=np.pi * longer,
+        section=ancf.Section(EA=1e4, EI=0.01, rhoA=0.1),
+    )
+    new = refined(model).bodies["arch"]
+    angle = np.pi * np.interp(np.arange(2 * len(parts) + 1) / 2, np.arange(len(u)), u)
+    wanted = np.stack([np.cos(angle), 0.0 * angle, np.sin(angle)], axis=1)
+    assert new.node_x == pytest.approx(angle * longer)
+    assert new.node_position == pytest.approx(wanted, abs=1e-6)
+
+
 @pytest.mark.parametrize(
     ("integrator", "finer"),
     [

@@ -153,6 +153,18 @@ class TestFile:
             distances(ancf.Mesh(points=points, triangles=rows), places), abs=1e-7
         )
 
+    @pytest.mark.parametrize("write", ["binary", "text"])
+    @pytest.mark.parametrize("thin", [1e-2, 1e-4, 1e-6])
+    def test_corners_of_a_plate_stay_apart(self, write, thin, tmp_path):
+        """However thin it is beside its size: single numbers have seven digits."""
+        points, rows = ball(0)
+        points = points * (1.0, 1.0, thin)
+        path = tmp_path / "plate.stl"
+        path.write_bytes(getattr(self, write)(points[rows]))
+        mesh = ancf.Mesh(path)
+        assert (mesh.points.shape, mesh.triangles.shape) == ((12, 3), (20, 3))
+        assert mesh.narrowest == pytest.approx(np.ptp(points[:, 2]), rel=1e-6)
+
     def test_triangles_that_look_inwards_are_turned(self):
         points, rows = prism(12)
         place = np.array([[0.0, 0.0, 0.5]])
@@ -199,6 +211,15 @@ class TestRope:
         assert force == pytest.approx(200.0 * np.exp(-0.2 * np.pi), rel=1e-2)
 
 
+@pytest.mark.parametrize("factors", [(1.0, 2.0, 3.0), (2.5, 0.4, 1.0), (5.0, 1.0, 0.2)])
+def test_narrowest_is_the_least_extent(factors):
+    """Of an icosahedron, whose corners are at (0, 1, g) times the radius over sqrt(1 + g^2) and so on."""
+    points, rows = ball(0, radius=0.3)
+    g = (1 + np.sqrt(5)) / 2
+    wide = 0.6 * g / np.sqrt(1 + g**2)
+    assert ancf.Mesh(points=factors * points, triangles=rows).narrowest == pytest.approx(wide * min(factors))
+
+
 BAD = {
     "a hole": (lambda p, t: {"points": p, "triangles": t[1:]}, "is not closed: 3 edges"),
     "one turned": (
@@ -208,6 +229,10 @@ BAD = {
     "no area": (lambda p, t: {"points": p, "triangles": np.concatenate([t, [[0, 1, 1]]])}, "has no area"),
     "too far": (lambda p, t: {"points": 1e12 * p, "triangles": t}, "distances from it are not known"),
     "no such point": (lambda p, t: {"points": p, "triangles": t + 1}, "names a point that is none"),
+    "from behind": (
+        lambda p, t: {"points": p, "triangles": np.where(t == len(p) - 1, -1, t)},
+        "names a point that is none",
+    ),
     "no triangles": (lambda p, t: {"points": p}, "triangles: is missing"),
     "nothing": (lambda p, t: {}, "give either file, or points"),
     "no file": (lambda p, t: {"file": "nowhere.stl"}, "cannot be read: No such file"),
