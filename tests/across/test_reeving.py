@@ -62,6 +62,33 @@ def test_a_number_that_is_off_is_outside(monkeypatch):
     assert not any(q.inside for group in validate.compare() for q in group.rows)
 
 
+@pytest.mark.parametrize("natural", [1.15, 1.19, 1.21])
+@pytest.mark.parametrize(
+    ("friction", "speed", "load"), [(0.5, 12.0, 25.0), (0.3, 40.0, 8.0), (0.9, 2.0, 20.0)]
+)
+def test_creep_theory_fits_its_laws(natural, friction, speed, load, monkeypatch):
+    """Mass flow, Euler with centrifugal force, the torque, and the length, from forces along both pulleys."""
+    for key, value in (("FRICTION", friction), ("SPEED", speed), ("LOAD", load)):
+        monkeypatch.setattr(belt, key, value)
+    found, R = belt.creep_theory(natural), belt.RADIUS
+    EA, rho = belt.EA * (1 - belt.STRAIN), belt.RHO_A / (1 - belt.STRAIN)
+    tight, slack = (1 + force / EA for force in (found.tight, found.slack))  # stretches
+    fast, slow = speed * R, found.driven * R
+    flow = rho * fast / tight
+    assert flow == pytest.approx(rho * slow / slack, rel=1e-9)
+    moving = found.tight - flow * fast, found.slack - flow * slow
+    assert moving[0] / moving[1] == pytest.approx(np.exp(friction * found.slip), rel=1e-9)
+    assert found.torque == pytest.approx(R * (moving[0] - moving[1]), rel=1e-9)
+    assert found.torque == pytest.approx(belt.BRAKE * found.driven + load, rel=1e-9)
+    assert 0.0 < found.slip == pytest.approx(np.pi - found.stick)
+    angle = np.linspace(0.0, found.slip, 2001)
+    pressing = moving[1] * np.exp(friction * angle)
+    stretch = (1 + pressing / EA) / (1 - flow**2 / (rho * EA))  # from force - flow speed = pressing
+    slips = 2 * np.trapezoid(R / stretch, angle)
+    rest = belt.APART + R * found.stick
+    assert rest / tight + rest / slack + slips == pytest.approx(natural, rel=1e-7)
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("elements", [120, 240])
 def test_belt_drive(elements):

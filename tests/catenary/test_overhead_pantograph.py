@@ -2,6 +2,7 @@
 
 import re
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -10,8 +11,9 @@ from scipy.integrate import solve_ivp
 import ancf
 from ancf import catenary
 from ancf.catenary.collectors import Touch, put_pantograph
-from ancf.catenary.roof import roofs
+from ancf.catenary.roof import Track, roofs
 from ancf.catenary.travel import make_travel
+from ancf.catenary.underside import checked_underside, profiles, read_underside
 from ancf.errors import ModelError
 
 SPEED, SECONDS, STIFF = 20.0, 0.5, 50e3  # m/s, s, N/m
@@ -193,6 +195,120 @@ class TestAgainstScipy:
         _, of_file = computed(PLAIN, roof=path, seconds=0.1)
         _, of_formula = computed(PLAIN, roof="0.01*sin(2*pi*2.2*t)", seconds=0.1)
         assert of_file == pytest.approx(of_formula, abs=0.05)
+
+
+class TestAtRest:
+    """What a pantograph carries, by hand."""
+
+    CURVE = ((-0.2, -900.0), (-0.1, -160.0), (-0.03, -60.0), (0.0, 0.0), (0.1, 30.0))
+
+    @pytest.mark.parametrize("speed", [0.0, 20.0, 45.0])
+    @pytest.mark.parametrize("shares", [0.03, (0.01, 0.05, -0.004), (0.0, 0.002, 0.03)])
+    def test_springs_have_the_slope_at_what_lifts_the_masses_below(self, shares, speed):
+        unit = replace(
+            PLAIN,
+            masses=(15.0, 7.2, 3.0),
+            stiffness=(40.0, self.CURVE, self.CURVE),
+            damping=(90.0, 10.0, 0.0),
+            aerodynamic=shares,
+        )
+        k = (shares, 0.0, 0.0) if isinstance(shares, float) else shares
+        lift = 100.0 + np.cumsum(k) * speed**2
+        assert unit.force(speed) == pytest.approx(lift[2], rel=1e-14)
+        rows = np.array(self.CURVE)
+        slopes = np.diff(rows[:, 1]) / np.diff(rows[:, 0])
+        wanted = [slopes[np.searchsorted(rows[:, 1], -load) - 1] for load in lift[:2]]
+        assert unit.slopes(speed) == pytest.approx((40.0, *wanted), rel=1e-6)
+
+    @pytest.mark.parametrize("stiffness", [(0.0, 5.0), (50.0, 0.0), (0.0, 0.0)])
+    @pytest.mark.parametrize("damping", [(0.0, 0.0), (9.0, 9.0)])
+    def test_something_carries_each_mass(self, stiffness, damping):
+        """The lowest may stand on a damper alone, which its lift needs."""
+        if stiffness[1] > 0.0 and damping[0] > 0.0:
+            assert replace(PLAIN, stiffness=stiffness, damping=damping).stiffness == stiffness
+        else:
+            with pytest.raises(ModelError, match="nothing carries"):
+                replace(PLAIN, stiffness=stiffness, damping=damping)
+
+
+class TestRoof:
+    UP, SIDE = "0.02*sin(5*t + 1)", "0.1*cos(3*t) - 0.1"
+
+    @pytest.mark.parametrize("speed", [30.0, [(0.0, 30.0), (2.0, 50.0)]], ids=["steady", "faster"])
+    def test_moves_along_aside_and_up(self, speed):
+        """The masses that it carries go along and aside with it, and not up."""
+        [roof] = roofs({"up": self.UP, "side": self.SIDE}, 1)
+        track = Track(make_travel(speed), roof)
+        for t in (0.0, 0.3, 1.7):
+            x = 30.0 * t + (5.0 * t**2 if isinstance(speed, list) else 0.0)
+            y, z = 0.1 * np.cos(3 * t) - 0.1, 0.02 * np.sin(5 * t + 1)
+            assert track.above(t) == pytest.approx((x, y, z), rel=1e-12, abs=1e-12)
+            assert track.along(t) == pytest.approx((x, y, 0.0), rel=1e-12, abs=1e-12)
+        for upwards in (0.0, 1.0):
+            wanted = 30.0, 0.0, upwards * 0.1 * np.cos(1.0)
+            assert track.velocity(upwards) == pytest.approx(wanted, abs=2e-6)
+
+    @pytest.mark.parametrize("way", ["up", "side"])
+    @pytest.mark.parametrize("far", [0.49, -0.49, 0.51, -0.51])
+    def test_half_a_metre_at_most(self, way, far):
+        if abs(far) < 0.5:
+            [roof] = roofs({way: far}, 1)
+            assert roof.at(0.3) == ((far, 0.0) if way == "side" else (0.0, far))
+        else:
+            with pytest.raises(ModelError, match=f"roof.{way}: is"):
+                roofs({way: far}, 1)
+
+    @pytest.mark.parametrize("count", [1, 3])
+    def test_one_for_each(self, count):
+        assert len(roofs([0.01, None], 2)) == 2
+        with pytest.raises(ModelError, match=f"has 2 motions for {count} pantographs"):
+            roofs([0.01, None], count)
+
+
+class TestUnderside:
+    #: Track positions of the nodes of a wire and its lengths without tension, shorter by a thousandth or two.
+    X = np.array([60.0, 65.0, 72.0, 90.0])
+    ARC = np.array([0.0, 4.995, 11.981, 29.963])
+
+    @pytest.mark.parametrize("ends", [(0.0, 200.0), (60.0, 90.0), (66.0, 80.0), (40.0, 70.0), (75.0, 120.0)])
+    def test_lies_on_the_wire_from_end_to_end(self, ends):
+        """Wear is up; beyond the rows, and beyond the wire, it is as at their ends."""
+        x = np.linspace(*ends, 41)
+        rows = np.column_stack([x, 1e-3 * np.sin(x) + 2e-3])
+        shape = SimpleNamespace(position=np.column_stack([self.X, 0 * self.X, 0 * self.X]), arc=self.ARC)
+        overhead = SimpleNamespace(strung_contacts=[SimpleNamespace(shape=shape)] * 2)
+        first, second = profiles(overhead, rows)
+        assert np.array_equal(first, second)
+        assert np.all(np.diff(first[:, 0]) > 0.0)
+        places = np.concatenate([self.X, x[(x > 60.0) & (x < 90.0)]])
+        found = np.interp(np.interp(places, self.X, self.ARC), first[:, 0], first[:, 1])
+        inside = np.isin(places, x) | (places < x[0]) | (places > x[-1])
+        assert found[inside] == pytest.approx(-np.interp(places, *rows.T)[inside], abs=1e-12)
+        beyond = x[(x < 60.0) | (x > 90.0)]
+        arcs = np.where(beyond < 60.0, beyond - 60.0, self.ARC[-1] + beyond - 90.0)
+        assert np.interp(arcs, *first.T) == pytest.approx(-np.interp(beyond, *rows.T), abs=1e-12)
+        assert first[0, 0] < 0.0
+        assert first[-1, 0] > self.ARC[-1]
+
+    def test_file_in_millimetres(self, tmp_path):
+        path = tmp_path / "worn.csv"
+        path.write_text("position,height_mm\n10,0.5\n11.5,-1.25\n20,19\n")
+        wanted = [[10.0, 5e-4], [11.5, -1.25e-3], [20.0, 0.019]]
+        assert read_underside(path) == pytest.approx(np.array(wanted))
+        assert checked_underside(path) == pytest.approx(np.array(wanted))
+
+    @pytest.mark.parametrize("late", [10.0, 9.0])
+    def test_rows_in_their_order(self, late, tmp_path):
+        path = tmp_path / "worn.csv"
+        path.write_text(f"position,height_mm\n10,0.5\n{late},1\n")
+        with pytest.raises(ModelError, match=r"row 2, column position: is .* behind one at 10 m"):
+            read_underside(path)
+
+    @pytest.mark.parametrize("high", [0.021, -0.021, 0.5, -0.5])
+    def test_no_deeper_than_a_wire(self, high):
+        assert checked_underside([[0.0, 0.0], [5.0, np.sign(high) * 0.019]])[1, 1] == np.sign(high) * 0.019
+        with pytest.raises(ModelError, match="more than a wire is thick"):
+            checked_underside([[0.0, 0.0], [5.0, high]])
 
 
 class TestPitch:

@@ -1,11 +1,13 @@
 """Modes of rings that are stiff against stretch: by how much locking raises them is said, after Love."""
 
 import re
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 import ancf
+from ancf.solvers.locking import stiffest
 
 
 def ring(elements, stiff, radius=1.0, flat=True):
@@ -75,3 +77,27 @@ def test_more_neutral_motions_than_modes():
     """A ring whose bend turns freely everywhere: the iteration for few modes does not end."""
     modes = ancf.modes(ring(64, 1e6, flat=False), count=12)
     assert modes.frequencies == pytest.approx(0.0, abs=1e-2)
+
+
+@pytest.mark.parametrize("nodes", [(0.0, 1.0, 2.0), (0.0, 0.3, 2.0), (0.0, 1.6, 1.9, 2.0)])
+@pytest.mark.parametrize("bending", [0.02, 5.0, 0.0])
+def test_the_longest_element_decides(nodes, bending):
+    """EA L^2/EI of each cable's longest element, of the cable with the largest; one without EI locks not."""
+    model = ancf.Model()
+    given = {"start": (0, 0, 0), "end": (2, 0, 0), "nodes": nodes}
+    model.add_beam("one", section=ancf.Section(EA=3e4, EI=bending, rhoA=1.0), **given)
+    model.add_beam(
+        "two", start=(0, 1, 0), end=(3, 1, 0), elements=6, section=ancf.Section(EA=4e4, EI=0.1, rhoA=1)
+    )
+    model.add_beam(
+        "bar",
+        start=(0, 2, 0),
+        end=(9, 2, 0),
+        elements=1,
+        section=ancf.Section.rectangle(0.01, 0.01, E=1e11, rho=1.0),
+        element="nonlocking",
+    )
+    ratios = {"one": 3e4 * max(np.diff(nodes)) ** 2 / bending if bending else 0.0, "two": 4e4 * 0.25 / 0.1}
+    name = max(ratios, key=ratios.__getitem__)
+    ratio, found = stiffest(SimpleNamespace(model=model))
+    assert (found, ratio) == (name, pytest.approx(ratios[name], rel=1e-12))

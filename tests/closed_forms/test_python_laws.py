@@ -152,6 +152,21 @@ def test_one_that_has_no_value_ends_the_run(way, late, what):
     assert caught.value.result.t[-1] == pytest.approx(0.05)
 
 
+@pytest.mark.parametrize("count", [0, 2, 4, 6])
+def test_compiled_one_that_gives_other_than_three_numbers_ends_the_run(count):
+    """Of more than three it takes none, as of fewer."""
+
+    def force(t, r, v):
+        return np.full(3 if t < 0.0505 else count, 0.1)
+
+    model, _ = hung(force=force)
+    with pytest.raises(ancf.SolveError) as caught:
+        ancf.simulate(model, t_end=0.1, step=1e-3)
+    assert caught.value.where.startswith("t = 0.05")
+    assert caught.value.result.t[-1] == pytest.approx(0.05)
+    assert model.loads[-1].force.once == ""  # it is compiled
+
+
 @pytest.mark.parametrize("way", WAYS)
 def test_halved_steps_ask_it_anew(way, monkeypatch):
     """A step that fails has asked for its end; its halves, and the end of the second, are asked for again."""

@@ -1,5 +1,6 @@
 """Parts of a step: predictor, elimination of the patches, turning frames, what is left, rates of motions."""
 
+from types import SimpleNamespace
 from typing import NamedTuple
 
 import numpy as np
@@ -19,10 +20,12 @@ from ancf.solvers.carry import carry
 from ancf.solvers.corotation import turn_rows
 from ancf.solvers.corrections import largest, shift, update
 from ancf.solvers.low_rank import eliminate
-from ancf.solvers.memory import FIRST_LIMIT, H_FACTOR, H_PREV, LIMIT, aligned, allocate
+from ancf.solvers.memory import FIRST_LIMIT, H_FACTOR, H_PREV, LIMIT, WORST, aligned, allocate
 from ancf.solvers.newmark import worst_unknown
 from ancf.solvers.renewal import count, renewed
 from ancf.solvers.scheme import Scheme, finish, predict_rows, restore
+from ancf.solvers.status import FAR
+from ancf.solvers.step_checks import check_way
 from ancf.system.core import inertia
 from ancf.system.inputs import differences
 from ancf.system.system import System
@@ -539,3 +542,26 @@ class TestCaution:
     def test_round_off_of_what_there_was_is_none(self, start, digits, said):
         """Of large energies that hardly change some are lost by rounding."""
         assert bool(Counted(start, digits * start, 0.1 * digits * start).caution) == said
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("share", [0.99, 1.0, 1.01])
+def test_no_unknown_goes_further_than_a_step_can_tell(seed, share):
+    """Either way, by its own measure: the first that does is named; shadows and multipliers do not count."""
+    rng = np.random.default_rng(seed)
+    n, size, most = 12, 17, 0.5
+    weight, q0 = rng.uniform(0.5, 20.0, n), rng.uniform(-3.0, 3.0, size)
+    way = rng.uniform(-0.9, 0.9, size) * most / np.append(weight, np.full(size - n, 1e-3))
+    for k, sign in ((3, 1.0), (7, -1.0), (11, -1.0)):
+        moved = way.copy()
+        moved[k] = sign * share * most / weight[k]
+        state = SimpleNamespace(q=moved, q0=np.zeros(size), memo=np.full(WORST + 1, -1.0))
+        status = check_way.py_func(SimpleNamespace(weight=weight), state, most * (1.0 + 1e-12))
+        assert (status == FAR, state.memo[WORST]) == ((True, k) if share > 1.0 else (False, -1.0))
+        state = SimpleNamespace(q=q0 + moved, q0=q0, memo=np.zeros(WORST + 1))
+        status = check_way.py_func(SimpleNamespace(weight=weight), state, most * (1.0 + 1e-12))
+        assert share == 1.0 or (status == FAR) == (share > 1.0)
+        moved[1] = -2.0 * most / weight[1]
+        state = SimpleNamespace(q=moved, q0=np.zeros(size), memo=np.zeros(WORST + 1))
+        assert check_way.py_func(SimpleNamespace(weight=weight), state, most) == FAR
+        assert state.memo[WORST] == 1

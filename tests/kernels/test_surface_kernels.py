@@ -69,6 +69,18 @@ OUTLINES = {
 }
 
 
+#: Of what is drawn: least and largest rho, largest z, height of its longest chord.
+#: A cylinder without an end is drawn as long as it is wide.
+DRAWN = {
+    "cylinder": (0.2, 0.2, 0.4, 1e-9),
+    "can": (0.0, 0.2, 0.15, 1e-9),
+    "sphere": (0.0, 0.25, 0.25, 2.5e-3),
+    "capsule": (0.0, 0.1, 0.25, 1e-3),
+    "torus": (0.25, 0.35, 0.05, 2e-3),
+    "sheave": (0.2, 0.28, groove(0.2, 0.03, 0.08, 0.9)[2][1] + 0.3 * 0.03, 2e-4),
+}
+
+
 def places(count=300, seed=2):
     return AT + np.random.default_rng(seed).uniform(-0.45, 0.45, (count, 3))
 
@@ -77,6 +89,18 @@ class TestDistances:
     def test_all_shapes_are_here(self):
         meshes = {ancf.Mesh}  # kernels/test_meshes.py
         assert {type(shape) for shape, _, _ in OUTLINES.values()} | meshes == set(SHAPES.values())
+
+    @pytest.mark.parametrize("name", DRAWN)
+    def test_what_is_drawn_is_the_shape(self, name):
+        shape, outline, _ = OUTLINES[name]
+        drawn = np.array(shape.outline)
+        low, wide, high, chord = DRAWN[name]
+        assert drawn[:, 0].min() == pytest.approx(low, abs=1e-12)
+        assert drawn[:, 0].max() == pytest.approx(wide)
+        assert [drawn[:, 1].min(), drawn[:, 1].max()] == pytest.approx([-high, high])
+        for points, most in ((drawn, 0.0), (0.5 * (drawn[1:] + drawn[:-1]), chord)):
+            near = np.hypot(outline[:, 0] - points[:, :1], outline[:, 1] - np.abs(points[:, 1:]))
+            assert near.min(axis=1).max() < most + 4e-4  # between two points of the outline
 
     @pytest.mark.parametrize("name", OUTLINES)
     def test_against_the_nearest_of_many_points(self, name):

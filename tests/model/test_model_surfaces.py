@@ -1,6 +1,7 @@
 """Surfaces and contacts with them: what is given, files, messages."""
 
 import json
+import math
 import re
 
 import numpy as np
@@ -240,3 +241,31 @@ class TestRefused:
             "is no contact with a surface here; there are: contact of rope and ball",
             lambda: state.contact_line("x"),
         )
+
+
+class TestProportions:
+    @pytest.mark.parametrize("angle", [0.3, 0.9, 2.0, 3.1])
+    @pytest.mark.parametrize("groove", [0.02, 0.3])
+    def test_a_groove_is_as_deep_as_its_round_bottom(self, groove, angle):
+        """Which ends where the flanks touch it, at groove (1 - sin(angle/2)) over its lowest place."""
+        least = groove * (1.0 - math.sin(angle / 2))
+        assert ancf.Sheave(0.4, groove, 1.001 * least, angle).depth > least
+        with pytest.raises(ancf.ModelError, match="round bottom"):
+            ancf.Sheave(0.4, groove, 0.999 * least, angle)
+
+    def test_flanks_that_do_not_open(self):
+        with pytest.raises(ancf.ModelError, match="must be less than pi"):
+            ancf.Sheave(0.4, 0.02, 0.1, math.pi)
+
+    @pytest.mark.parametrize("share", [1.0, 1.01])
+    def test_a_ring_has_a_hole(self, share):
+        assert ancf.Torus(0.3, 0.299).tube == 0.299
+        with pytest.raises(ancf.ModelError, match="must be less than the radius"):
+            ancf.Torus(0.3, 0.3 * share)
+
+    def test_narrowest(self):
+        """What may be gone through unseen: of a ring its wire."""
+        shapes = (ancf.Cylinder(0.2, length=0.1), ancf.Sphere(0.3), ancf.Capsule(0.1, 2.0))
+        assert [shape.narrowest for shape in shapes] == [0.2, 0.3, 0.1]
+        assert ancf.Torus(0.5, 0.04).narrowest == 0.04
+        assert ancf.Sheave(0.25, 0.02, 0.1).narrowest == 0.25

@@ -36,6 +36,48 @@ def test_compiled_formula_is_the_formula(text):
         assert data[6:] == pytest.approx(function(t, r, v), rel=1e-14, abs=1e-14)
 
 
+#: Formulas at whole numbers, where two numbers are often the same, and what they are in Python.
+AT_EQUALITY = {
+    "x < y": lambda x, y: x < y,
+    "x <= y": lambda x, y: x <= y,
+    "x > y": lambda x, y: x > y,
+    "x >= y": lambda x, y: x >= y,
+    "x == y": lambda x, y: x == y,
+    "x != y": lambda x, y: x != y,
+    "0 < x <= y": lambda x, y: 0 < x <= y,
+    "x >= y > -1": lambda x, y: x >= y > -1,
+    "step(x)": lambda x, y: x >= 0,
+    "step(x - y)": lambda x, y: x >= y,
+    "not x": lambda x, y: not x,
+    "x and y": lambda x, y: x != 0 and y != 0,
+    "x or y": lambda x, y: x != 0 or y != 0,
+    "where(x, y, 7)": lambda x, y: y if x else 7,
+    "where(x >= y, x, -y)": lambda x, y: x if x >= y else -y,
+    "ramp(x, 0, 2)": lambda x, y: {-1: 0.0, 0: 0.0, 1: 0.5, 2: 1.0}[x],
+}
+
+
+@pytest.mark.parametrize("text", AT_EQUALITY)
+def test_where_numbers_are_the_same(text):
+    function = StateFunction([text, "0", "y"], "force", np.zeros(3), lambda: 1.0)
+    law = python_of([text, "0", "y"])
+    for x in (-1, 0, 1, 2):
+        for y in (-1, 0, 1, 2):
+            data = np.array([x, y, 0.0, 0.0, 0.0, 0.0, np.nan, np.nan, np.nan])
+            wanted = float(AT_EQUALITY[text](x, y))
+            assert law(0.0, data) == 0.0
+            assert data[6:].tolist() == [wanted, 0.0, y]
+            assert function(0.0, data[:3], data[3:6]).tolist() == [wanted, 0.0, y]
+
+
+@pytest.mark.parametrize(("low", "high"), [(1.0, 1.0), (2.0, 1.0), (-1.0, 0.0)])
+def test_a_ramp_between_places_that_move_needs_a_length(low, high):
+    """Without one it is no number, which ends a step: see the formula itself."""
+    data = np.array([low, high, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
+    python_of(["ramp(t, x, y)", "0", "0"])(3.0, data)
+    assert np.isnan(data[6]) == (high <= low)
+
+
 @pytest.mark.parametrize("name", NAMES[1:])
 def test_each_name_makes_a_law(name):
     given = ["0", f"2*{name}", "t"]
