@@ -4,6 +4,7 @@ import csv
 import json
 from dataclasses import replace
 from functools import cache
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -27,7 +28,7 @@ from ancf.catenary import (
     read_line,
     verify,
 )
-from ancf.catenary.schedule import COLUMNS
+from ancf.catenary.schedule import COLUMNS, rows, texts
 from ancf.catenary.strings import lumped, string_loads, string_shape
 from ancf.cli.app import app
 from ancf.errors import ModelError
@@ -398,6 +399,27 @@ class TestSchedule:
         assert table[:, 5] == pytest.approx(1e3 * made.dropper_natural, abs=0.051)
         assert table[:, 6] == pytest.approx(made.dropper_load, abs=0.051)
         assert "-0.0" not in path.read_text(encoding="utf-8")
+
+    @pytest.mark.parametrize("spacing", [None, 0.04])
+    def test_rows_are_what_the_droppers_have(self, spacing):
+        """In millimetres but for places and loads; of twin wires each place comes twice."""
+        line, rng = small(contact_spacing=spacing), np.random.default_rng(4)
+        wires, places = 1 if spacing is None else 2, ((8.0, 20.0, 32.0), (8.0, 25.0, 42.0))
+        names = ("dropper_length", "cut_length", "dropper_load", "contact_height", "messenger_height")
+        values = {name: rng.uniform(-2.0, 2.0, 6 * wires) for name in names}
+        made = rows(SimpleNamespace(line=line, **values))
+        x = np.repeat(np.ravel(places), wires)
+        assert [row.position for row in made] == x.tolist()
+        assert [row.track for row in made] == (x + 40.0 * (np.arange(len(x)) >= 3 * wires)).tolist()
+        assert [row.span for row in made] == [1] * 3 * wires + [2] * 3 * wires
+        assert [row.dropper for row in made] == 2 * [*range(1, 3 * wires + 1)]
+        columns = ("length", "natural", "load", "contact_height", "messenger_height")
+        for column, name in zip(columns, names, strict=True):
+            scale = 1.0 if column == "load" else 1e3
+            assert [getattr(row, column) for row in made] == pytest.approx(scale * values[name], rel=1e-14)
+        told = texts(replace(made[0], length=1234.56, natural=1233.94, load=-0.04, contact_height=-7.25))
+        assert told[:7] == ["1", "1", "8.000", "8.000", "1234.6", "1233.9", "0.0"]
+        assert told[7] in ("-7.2", "-7.3")
 
     def test_cannot_be_written(self, tmp_path):
         (tmp_path / "file").write_text("")
