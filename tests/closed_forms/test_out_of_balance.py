@@ -141,6 +141,23 @@ class TestNoted:
             "a support moves in this state: modes() holds it where it is"
         ]
 
+    @pytest.mark.parametrize("angle", [0.0, 0.5, "0.3", lambda t: 0.2, -3.0, 1e3])
+    @pytest.mark.parametrize("of", ["a node", "a body"])
+    def test_a_clamp_that_is_turned_rests(self, of, angle):
+        """Differences of an angle that does not change leave rounding, which is no motion."""
+        model, _ = cantilever(**({} if of == "a body" else {"rotation": angle, "axis": (0, 1, 0)}))
+        if of == "a body":
+            drum = model.add_rigid_body("drum", at=(0, 2, 0), mass=1.0, inertia=(1.0, 1.0, 1.0))
+            model.clamp(drum, rotation=angle, axis=(0, 1, 0))
+        assert ancf.modes(model, about=ancf.equilibrium(model), count=1).notes == []
+
+    @pytest.mark.parametrize("rate", [1e-6, -1e-3, 2.0])
+    def test_a_clamp_that_turns_slowly_moves(self, rate):
+        model, _ = cantilever(rotation=lambda t: rate * t)
+        assert ancf.modes(model, count=1).notes == [
+            "a support moves in this state: modes() holds it where it is"
+        ]
+
     def test_a_flight_is_no_rotation(self):
         model = ancf.Model()
         model.add_beam("beam", start=(0, 0, 0), end=(1, 0, 0), elements=2, section=BEAM).set_motion(

@@ -29,6 +29,8 @@ from .remembered import Remembered
 BALANCED, ROUND_OFF = 1e-3, 1e-10
 #: Share of the largest rate, above which a rate is that of a rotation.
 ROTATES = 1e-6
+#: Rate of a support, m/s or rad/s, below which it rests: differences leave some 1e-13 of an angle per second.
+MOVES = 1e-8
 #: Size of the rest beside omega^2, whose square is about the share of omega^2 that is wrong.
 SMALL = 0.02
 #: Unknowns on which such loads act, beyond which nothing is said: a load along all of a long cable.
@@ -114,7 +116,8 @@ def of_motion(system: System, q: FloatArray, v: FloatArray) -> list[str]:
     if solid and rate > ROTATES * np.max(rates, initial=0.0):
         return [f"the model rotates with {rate:.4g} rad/s: {LEAVES_OUT}"]
     given = np.setdiff1d(system.inputs.prescribed, list(system.numbering.lengths.values())).astype(int)
-    if np.any(rates[given]) or np.any(supports.rot_R[supports.rot_moving >= 0, 1]):
+    turning = supports.rot_R[supports.rot_moving >= 0, 1]
+    if max(np.max(rates[given], initial=0.0), np.max(abs(turning), initial=0.0)) > MOVES:
         return ["a support moves in this state: modes() holds it where it is"]
     return []
 
