@@ -195,6 +195,7 @@ BAD_BEAMS = [
     ({"elements": None, "nodes": [0]}, "nodes", "has 1 nodes"),
     ({"elements": None, "nodes": [0, 0.5]}, "nodes", "must go from 0 to the length 1 m"),
     ({"elements": None, "nodes": [0.1, 1]}, "nodes", "must go from 0"),
+    ({"elements": None, "nodes": [0, 0.5, 1 + 1e-7]}, "nodes", "length 1 m (length= sets it; that of a path"),
     ({"elements": None, "nodes": [0, 0.5, 0.5, 1]}, "nodes[2]", "increasing"),
     ({"elements": None, "nodes": [0, 0.7, 0.5, 1]}, "nodes[2]", "0.5 follows 0.7"),
     ({"elements": None, "nodes": [0, NAN, 1]}, "nodes[1]", "finite"),

@@ -359,7 +359,8 @@ def _check_nodes(node_x: FloatArray, length: float, where: str) -> None:
         raise ModelError(where, f"has {node_x.size} nodes, must be 2 to {MOST_ELEMENTS + 1}")
     if abs(node_x[0]) > slack or abs(node_x[-1] - length) > slack:
         ends = f"{node_x[0]:.12g} to {node_x[-1]:.12g}"
-        raise ModelError(where, f"go from {ends} m, must go from 0 to the length {length:.12g} m")
+        hint = "length= sets it; that of a path of points is the length of its smooth curve"
+        raise ModelError(where, f"go from {ends} m, must go from 0 to the length {length:.12g} m", hint)
     gaps = np.diff(node_x)
     if np.min(gaps) <= 10 * slack:
         i = int(np.argmin(gaps))

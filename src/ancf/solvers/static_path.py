@@ -56,12 +56,12 @@ def follow_path(it: Iteration, load: Callable[[float], float], steps: int, of: s
         it.q, it.mu = before, 0.0
         part = 0.5 * part
         if halvings > MOST_HALVINGS:
-            raise away or it.failure(where, problem, _advice(it, problem))
+            raise away or it.failure(where, problem, _advice(it, problem, where))
     return halvings
 
 
-def _advice(it: Iteration, problem: str) -> str:
-    """What to do about a path that cannot be followed."""
+def _advice(it: Iteration, problem: str, where: str) -> str:
+    """What to do about a path that cannot be followed beyond a place."""
     if problem.endswith(VANISHED):
         return "the load is too large for EA and EI, or a clamp must hold the stretch"
     turning = [beam.name for beam in it.system.model.beams.values() if beam.turns_its_bend]
@@ -71,6 +71,9 @@ def _advice(it: Iteration, problem: str) -> str:
     if it.last < NEAR and (name := _cable_at(it, it.last_moved)):
         what = f'"{name}" finds no rest: where it has no tension nothing holds it sideways'
         return f"{what}; hold or pull its ends, give it EI, or begin a run from the initial shape"
+    if where.endswith(" 0 of the load"):
+        alone = "if none help, natural lengths alone leave no equilibrium near the initial shape"
+        return f"give more load_steps; {alone}: draw it nearer to one, or run it with damping from there"
     return "give more load_steps"
 
 

@@ -38,6 +38,7 @@ UNMOVED = 1e-10  # correction after it that is round-off, positions in sizes of 
 PRESSED = 1e-9  # by which friction may shorten a cable
 MOST_RELEASES = 30  # rounds in which surfaces let go what they pull
 MOST_EVENTS = 4  # openings and closings of a contact
+SLIPS = "where friction slips for good there is none: simulate, or more friction; else start nearer to it"
 FINER = 1, 7, 31  # times as many steps of the loads where something touches and no equilibrium was found
 
 
@@ -219,7 +220,8 @@ def let_go(it: Iteration) -> None:
         if pulled:
             problem = settle(it, 1.0)
             if problem is not None:
-                raise it.failure("equilibrium", problem, "start nearer to the equilibrium")
+                hint = SLIPS if _late(it.core) else "start nearer to the equilibrium"
+                raise it.failure("equilibrium", problem, hint)
             bring_late(it)
         elif not last:
             break
@@ -227,22 +229,27 @@ def let_go(it: Iteration) -> None:
         free(batch, it.q, True)
 
 
+def _late(core: Core) -> list[tuple[Any, Any]]:
+    """What comes last, such as friction, and how it is renewed."""
+    ways = [(batch, own(batch)) for batch in core.batches if (own := traits(batch).late) is not None]
+    return [(batch, way) for batch, way in ways if way is not None]
+
+
 def bring_late(it: Iteration) -> None:
     """Bring on what comes last, such as friction, and renew it until it fits the equilibrium."""
-    ways = [(batch, own(batch)) for batch in it.core.batches if (own := traits(batch).late) is not None]
-    found = [(batch, way) for batch, way in ways if way is not None]
+    found = _late(it.core)
     for _ in range(MOST_RENEWED if found else 0):
         changes, before = [way(batch, it.q) for batch, way in found], it.q
         if max(changes) < RENEWED:
             return
         problem = settle(it, 1.0)
         if problem is not None:
-            raise it.failure("equilibrium with friction", problem, "start nearer to the equilibrium")
+            raise it.failure("equilibrium with friction", problem, SLIPS)
         if it.length((it.q - before)[: it.system.n]) < UNMOVED:
             return
     if found:
         what = f"friction did not settle in {MOST_RENEWED} rounds"
-        raise it.failure("equilibrium with friction", what, "start nearer to the equilibrium")
+        raise it.failure("equilibrium with friction", what, SLIPS)
 
 
 def settle_contacts(it: Iteration) -> None:
