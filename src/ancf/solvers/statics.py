@@ -38,7 +38,10 @@ UNMOVED = 1e-10  # correction after it that is round-off, positions in sizes of 
 PRESSED = 1e-9  # by which friction may shorten a cable
 MOST_RELEASES = 30  # rounds in which surfaces let go what they pull
 MOST_EVENTS = 4  # openings and closings of a contact
-SLIPS = "where friction slips for good there is none: simulate, or more friction; else start nearer to it"
+SLIPS = (
+    "where friction slips for good there is none: simulate, or more friction; "
+    "else another stiffness of the contact, shorter elements, or start nearer to it"
+)
 FINER = 1, 7, 31  # times as many steps of the loads where something touches and no equilibrium was found
 
 
