@@ -132,9 +132,9 @@ def verify(
     SolveError
         A computation failed; a note of the error says which.
     """
-    if start is not None and not callable(start):
+    if start is not None:
         hint = "give start=ancf.equilibrium, or a function that finds a State of the model it is given"
-        raise ModelError("verify.start", f"must be a function, is {checks.shown(start)}", hint)
+        checks.function(start, "verify.start", "the model", hint)
     if (t_end is None) != (step is None):
         missing = "step" if step is None else "t_end"
         raise ModelError(

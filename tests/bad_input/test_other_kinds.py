@@ -149,3 +149,58 @@ def test_numbers_beyond_all(ask):
     """The advice of the message could not be written: OverflowError."""
     with pytest.raises(ModelError, match="must be"):
         ask()
+
+
+class Told:
+    """Takes whatever it is given, as functions do; its objects are called with one thing."""
+
+    def __init__(self, *given):
+        self.given = given
+
+    def __call__(self, one):
+        return None
+
+
+#: What is called as a function, and the place that is named.
+CALLED = [
+    (lambda other: ancf.simulate(_model(), **TIME, progress=other), "simulate.progress"),
+    (lambda other: ancf.simulate(_model(), **TIME, controller=other), "simulate.controller"),
+    (lambda other: ancf.resume("none.h5", progress=other), "resume.progress"),
+    (lambda other: ancf.verify(_model(), **TIME, start=other), "verify.start"),
+    (lambda other: _least(begin=other), "minimise.begin"),
+    (lambda other: ancf.minimise(other, PLACE, BOUNDS, **TIME, most=1), "minimise.model"),
+    (lambda other: ancf.catenary.run(short_line(), speed=60, progress=other), "run.progress"),
+    (lambda other: ancf.catenary.run(short_line(), speed=60, modify=other), "run.modify"),
+    (lambda o: ancf.equilibrium(_model(), sensitivities={"a": (1.0, o)}), "equilibrium.sensitivities"),
+]
+
+
+@pytest.mark.parametrize("given", [int, Told, ancf.Model, 3, "print"], ids=str)
+@pytest.mark.parametrize(("ask", "where"), CALLED, ids=[where for _, where in CALLED])
+def test_what_is_no_function(ask, where, given):
+    """A class made one of its objects, which nobody looked at, or ended with an error from inside."""
+    with pytest.raises(ModelError, match="must be a") as error:
+        ask(given)
+    assert where in error.value.where
+    if isinstance(given, type) and "sensitivities" not in where:
+        assert f"is the class {given.__name__}" in error.value.what
+
+
+def test_objects_that_can_be_called_are_functions():
+    run = ancf.simulate(_model(), **TIME, progress=Told(), controller=Told())
+    assert len(run.t) == 3
+
+
+@pytest.mark.parametrize(
+    "item", [np.ones((2, 2)), [np.ones((2, 3))], np.array([["beam.end"]]), [["beam.end"]], [int]], ids=repr
+)
+def test_sensors_are_no_tables(item):
+    for ask in (ancf.verify, ancf.simulate):
+        with pytest.raises(ModelError, match=r"\.sensors(\[0\])?: must be a (list of )?points?"):
+            ask(_model(), **TIME, sensors=item)
+
+
+@pytest.mark.parametrize("size", [np.ones(3), [1, 3], "3", 3.0, 2, 0, -1, True, int], ids=repr)
+def test_sizes_of_series(size):
+    with pytest.raises(ModelError, match=r"Series\.size: must be 1 or 3"):
+        ancf.Series([0.0, 1.0, 2.0], [0.0, 1.0, 2.0], size=size)

@@ -220,7 +220,7 @@ class TestFailures:
     @pytest.mark.parametrize(
         ("arguments", "phrase"),
         [
-            ((3, samples(2)), "study.function: must be callable"),
+            ((3, samples(2)), "study.function: must be a function"),
             ((product, [1, 2]), "must be a DataFrame"),
             ((product, samples(2).head(0)), "must be a DataFrame with a row"),
             ((product, samples(2).assign(b=[1.0, np.nan])), 'study.samples["b"][1]: must be a finite number'),

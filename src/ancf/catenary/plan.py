@@ -61,9 +61,8 @@ class Door:
     def of(cls, line: Any, shape: AnyForm, modify: Any, broken: Any, where: str) -> Door:
         """The door of what ``run`` or ``stepper`` was given; ``shape`` is the form of it."""
         given = line if isinstance(line, Assembled) else None
-        if modify is not None and not callable(modify):
-            what = f"must be a function of the overhead, is {checks.shown(modify)}"
-            raise ModelError(f"{where}.modify", what)
+        if modify is not None:
+            checks.function(modify, f"{where}.modify", "the overhead")
         return cls(given, modify, chosen(shape.line, broken, f"{where}.broken_droppers"))
 
     @property

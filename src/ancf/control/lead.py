@@ -27,9 +27,10 @@ def check_controller(controller: Any, control_step: Any, step: float, where: str
     ModelError
         It is no function, or its step is no multiple of the time step.
     """
-    if not callable(controller):
-        what = f"must be a function of the run, is {checks.shown(controller)}"
-        raise ModelError(f"{where}.controller", what, 'such as def f(run): run.inputs["thrust"] = 5.0')
+    hint = 'such as def f(run): run.inputs["thrust"] = 5.0'
+    if isinstance(controller, type):
+        hint = f"give an object of it, {controller.__name__}(...), that can be called"
+    checks.function(controller, f"{where}.controller", "the run", hint)
     if control_step is None:
         return 1
     ratio = min(checks.positive(control_step, f"{where}.control_step") / step, MOST_STEPS)

@@ -270,10 +270,9 @@ def _read(path: Path, folder: str) -> _About:
 
 
 def _question(name: str, given: Any) -> Question:
-    if callable(given):
-        return cast(Question, given)
-    what = f"must be a function of the run, is {checks.shown(given)}"
-    raise ModelError(f"{WHERE}.inputs[{name!r}]", what, 'such as lambda run: run.position("head")[2]')
+    hint = 'such as lambda run: run.position("head")[2]'
+    checks.function(given, f"{WHERE}.inputs[{name!r}]", "the run", hint)
+    return cast(Question, given)
 
 
 def _reference(about: _About, name: str, causality: str) -> int:

@@ -126,8 +126,7 @@ def study(
     from .writing import write_all
 
     frame = pandas()
-    if not callable(function):
-        raise ModelError("study.function", f"must be callable, is {checks.shown(function)}")
+    checks.function(function, "study.function", "the columns")
     checks.progress(progress, "study.progress")
     if not isinstance(samples, frame.DataFrame) or not len(samples) or not len(samples.columns):
         raise ModelError("study.samples", "must be a DataFrame with a row for each case", "see ancf.sample")

@@ -89,6 +89,13 @@ def integer(value: object, where: str, low: int, high: int) -> int:
     return int(value)
 
 
+def components(value: object, where: str) -> int | None:
+    """How many numbers there are at each time: 1, 3, or None where the numbers say so."""
+    if value is not None and (isinstance(value, bool) or not isinstance(value, int) or value not in (1, 3)):
+        raise ModelError(where, f"must be 1 or 3, is {shown(value)}", "the numbers of value at each time")
+    return value
+
+
 def flag(value: object, where: str) -> bool:
     """True or False, nothing else."""
     if not isinstance(value, bool | np.bool_):
@@ -144,16 +151,25 @@ def path(value: object, where: str) -> Path:
     return Path(value)
 
 
-def function(value: object, where: str, of: str) -> None:
-    """What can be called."""
-    if not callable(value):
-        raise ModelError(where, f"must be a function of {of}, is {shown(value)}")
+def is_function(value: object) -> bool:
+    """Whether something is called as a function; a class would make one of its objects, and do nothing."""
+    return callable(value) and not isinstance(value, type)
+
+
+def function(value: object, where: str, of: str, hint: str = "") -> None:
+    """What can be called, and is no class."""
+    if is_function(value):
+        return
+    if isinstance(value, type):
+        hint = hint or "what a class makes is not used: give a function, or an object that can be called"
+        raise ModelError(where, f"must be a function of {of}, is the class {value.__name__}", hint)
+    raise ModelError(where, f"must be a function of {of}, is {shown(value)}", hint)
 
 
 def progress(value: object, where: str) -> None:
     """What is called while a computation goes on, or nothing."""
-    if value is not None and not callable(value):
-        raise ModelError(where, f"must be a function of the progress, is {shown(value)}", "such as print")
+    if value is not None:
+        function(value, where, "the progress", "such as print")
 
 
 def array(value: object, where: str, shape: tuple[int | None, ...]) -> FloatArray:

@@ -134,13 +134,14 @@ class Lookup:
         """Return the point, spring, joint or support that a sensor may record, an object or its name."""
         if isinstance(item, Point | PointMass | RigidBody | Beam):
             return self._point(item, where)
-        found = next((c for c in self.connections if item is c or item == c.name), None)
+        name = item if isinstance(item, str) else None  # an array is compared with a text item by item
+        found = next((c for c in self.connections if item is c or name == c.name), None)
         if isinstance(found, Spherical) and found.shared:
             what = f'"{found.name}" joins two nodes that share their unknowns: it has no force of its own'
             raise ModelError(where, what, "list one of its points")
         if found is not None:
             return found
-        held = next((support for support in self.supports if item is support or item == support.name), None)
+        held = next((support for support in self.supports if item is support or name == support.name), None)
         if held is not None:
             return held
         if not isinstance(item, str):

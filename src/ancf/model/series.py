@@ -77,7 +77,7 @@ class Series(metaclass=Told):
         where: str = "Series",
     ) -> None:
         self.t = checks.array(t, f"{where}.t", (None,)) * factor(time_unit, f"{where}.time_unit", "s")
-        self.value = _values(value, f"{where}.value", size) * factor(unit, f"{where}.unit")
+        self.value = _values(value, where, size) * factor(unit, f"{where}.unit")
         self.integrate = checks.flag(integrate, f"{where}.integrate")
         self.unit = _way(unit, where) if self.integrate else kind_of(unit) if unit else None
         self.interpolation = checks.choice(interpolation, f"{where}.interpolation", INTERPOLATIONS)
@@ -300,13 +300,13 @@ def _way(unit: str, where: str) -> str | None:
 
 
 def _values(value: Any, where: str, size: int | None) -> FloatArray:
-    first = value[0] if isinstance(value, list | tuple) and len(value) else value
-    rows = np.ndim(first) > (0 if first is not value else 1)
+    rows = np.ndim(value[0]) > 0 if isinstance(value, list | tuple) and len(value) else np.ndim(value) > 1
+    size = checks.components(size, f"{where}.size")
     if size == 3 and not rows and len(np.atleast_1d(value)):
         hint = "give one for each component, [series, 0, 0], or three columns"
-        raise ModelError(where, "has one number at each time, where three are wanted", hint)
+        raise ModelError(f"{where}.value", "has one number at each time, where three are wanted", hint)
     shape: tuple[int | None, ...] = (None, 3) if size == 3 or (size is None and rows) else (None,)
-    return checks.array(value, where, shape)
+    return checks.array(value, f"{where}.value", shape)
 
 
 def read_table(

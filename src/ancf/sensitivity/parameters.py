@@ -186,7 +186,7 @@ def _of_fluid(model: Model, name: str) -> bool:
 
 
 def _built(name: Any, given: Any, where: str) -> Parameter:
-    pair = isinstance(given, tuple | list) and len(given) == 2 and callable(given[1])
+    pair = isinstance(given, tuple | list) and len(given) == 2 and checks.is_function(given[1])
     if isinstance(given, Parameter):
         return given
     if not pair:
