@@ -232,3 +232,88 @@ def test_torsion_springs_in_degrees(angle, said):
     model.hinge(body, (0, 0, 0), axis=(0, 0, 1))
     model.add_torsion_spring(body, (0, 0, 0), axis=(0, 0, 1), stiffness=1.0, angle=angle, name="twist")
     assert [f"{angle:g} rad" in text for text in doubts(model)] == [True] * said
+
+
+#: Lines as they are, by makers' or textbooks' numbers in SI units (EA, EI, rhoA, diameter, length)
+LINES = {
+    "contact wire": (1.2e7, 150.0, 1.08, 0.012, 600.0),
+    "steel rope": (8e7, 500.0, 3.0, 0.03, 300.0),
+    "mooring chain": (7.5e8, 0.0, 200.0, 0.2, 800.0),
+    "polyester rope": (3e7, 0.0, 20.0, 0.2, 3000.0),
+    "deck of a bridge": (5e11, 3e13, 25e3, None, 1500.0),
+    "immersed tunnel": (6e12, 6e13, 3e5, None, 180.0),
+    "rubber band": (20.0, 5e-6, 4e-3, 2e-3, 0.1),
+    "silicone": (8.0, 4e-5, 0.08, 0.01, 0.2),
+    "Slinky": (0.05, 1e-4, 3.3, 0.07, 1.5),
+    "foam rod": (80.0, 0.01, 0.06, 0.05, 1.0),
+    "spider silk": (0.07, 1e-14, 1e-8, 3e-6, 0.05),
+    "carbon fibre": (9.0, 3e-11, 7e-8, 7e-6, 0.1),
+    "DNA": (1.1e-9, 2.1e-28, 3.3e-15, 2e-9, 1e-6),
+    "nanotube": (1.0e-6, 1e-25, 1.3e-15, 1e-9, 1e-7),
+    "rigid stand-in": (7.5e12, 0.0, 800.0, None, 500.0),
+    "belt without thickness": (7600.0, 1.3e-3, 0.87, 1e-4, 2.0),
+}
+SPEED, THICK, AIR, BRIDGE = "a pull runs along it at", "m thick, and it is", "less than air", "any bridge has"
+
+
+def line_of(EA, EI, rhoA, diameter, length, gravity=9.81):
+    model = ancf.Model(gravity=(0, 0, -gravity))
+    section = ancf.Section(EA=EA, EI=EI, rhoA=rhoA, diameter=diameter)
+    line = model.add_beam("line", start=(0, 0, 0), end=(length, 0, 0), elements=2, section=section)
+    model.pin(line.start)
+    return model
+
+
+@pytest.mark.parametrize("name", LINES)
+def test_lines_as_they_are(name):
+    assert doubts(line_of(*LINES[name])) == []
+
+
+@pytest.mark.parametrize(
+    ("name", "changed", "said"),
+    [
+        ("contact wire", {"EA": 5e-6}, [SPEED, THICK]),
+        ("contact wire", {"EI": 1e12}, [THICK]),
+        ("deck of a bridge", {"EI": 3e16}, [THICK]),
+        ("steel rope", {"EI": 500e12}, [THICK]),
+        ("contact wire", {"rhoA": 1e-9}, [SPEED, AIR]),
+        ("contact wire", {"rhoA": 1e6}, [BRIDGE]),
+        ("deck of a bridge", {"rhoA": 25e6}, [BRIDGE]),
+        ("steel rope", {"EA": 8e16}, [SPEED]),
+        *(
+            (name, {"diameter": 1e3 * LINES[name][3]}, [AIR])
+            for name in ("contact wire", "steel rope", "rubber band")
+        ),
+        ("foam rod", {"rhoA": 0.06e-3}, [AIR]),
+    ],
+)
+def test_lines_in_other_units(name, changed, said):
+    given = dict(zip(("EA", "EI", "rhoA", "diameter", "length"), LINES[name], strict=True)) | changed
+    model = line_of(**given)
+    found = doubts(model)
+    assert len(found) == len(said), found
+    for text, part in zip(found, said, strict=True):
+        assert text.startswith('"line": ')
+        assert part in text
+        assert text in " ".join(str(model).split())
+
+
+@pytest.mark.parametrize(
+    ("gravity", "said"),
+    [(981.0, True), (9810.0, True), (32.2, True), (24.8, False), (0.0, False), (1.62, False)],
+)
+def test_gravity_in_other_units(gravity, said):
+    """32.2 are feet per second squared; Jupiter has 24.8 m/s^2."""
+    found = doubts(line_of(*LINES["steel rope"], gravity=gravity))
+    assert (
+        found
+        == [f"gravity of {gravity:g} m/s^2 is more than planets have, on Earth it is 9.81: is it in m/s^2?"]
+        * said
+    )
+
+
+def test_units_of_a_fluid_and_of_a_line_are_told_once():
+    model = line_of(1e6, 0.0, 20.0, 100.0, 60.0)
+    assert [AIR in text for text in doubts(model)] == [True]
+    model.add_fluid("sea", 1025.0, below=0.0)
+    assert ["displaces" in text for text in doubts(model)] == [True]

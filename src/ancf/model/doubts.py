@@ -25,6 +25,19 @@ from .winch import Winch
 SOFTEST = 1e3
 #: Of solids, kg/m^3: from foams to osmium, 22,600.
 LIGHTEST, HEAVIEST = 10.0, 25_000.0
+#: Speeds of pulls along a line, sqrt(EA/rhoA), m/s: a Slinky has 0.1, soft silicone 5, DNA 600, steel 5000,
+#: diamond 18,000, carbon nanotubes 27,000; stiffnesses that stand for inextensible lines some 100,000.
+SLOWEST, FASTEST = 0.05, 1e6
+#: Radius of gyration of a section, sqrt(EI/EA), m: decks of bridges are 60 m wide at most and have 20. Nor is
+#: a beam's larger than its length: it would be more than three times as thick as long.
+WIDEST = 50.0
+#: Mass per length, kg/m: decks of bridges have 50,000, immersed tunnels 300,000.
+HEAVIEST_LINE = 1e6
+#: Of lines with their outer diameter, kg/m^3: air has 1.2, foams more than 10. Above there is no bound: a
+#: flat belt may touch with a diameter next to none.
+AIR = 1.0
+#: Gravity, m/s^2: Jupiter has 25, the Earth 9.8.
+STRONGEST = 30.0
 #: Of fluids with a surface, kg/m^3, and mass that a cable displaces over its own: the lightest buoys have 20.
 THINNEST, LIGHT = 10.0, 50.0
 #: Full turns by which a torsion spring is wound at most, unsaid.
@@ -39,12 +52,15 @@ PEAKS, STEEPEST = (8.0, 15.0), (1.0 / 15.0, 1.0 / 25.0)
 
 def doubts(model: Any) -> list[str]:
     """What is said of sections, fluids, friction and winches, one line each; a shared section once."""
-    found: dict[str, None] = {}
+    found: dict[str, None] = dict.fromkeys(_of_gravity(model))
     for name, beam in model.beams.items():
-        found |= dict.fromkeys(f'"{name}": {text}' for text in _of_section(beam.section))
-        for fluid in model.fluids:
-            if fluid.acts_on(name):
-                found |= dict.fromkeys(f'"{name}": {text}' for text in _in_fluid(beam.section, fluid))
+        wet = [text for f in model.fluids if f.acts_on(name) for text in _in_fluid(beam.section, f)]
+        own = (
+            *_of_section(beam.section),
+            *_of_line(beam.section, beam.length),
+            *(wet or _in_air(beam.section)),
+        )
+        found |= dict.fromkeys(f'"{name}": {text}' for text in own)
     for fluid in model.fluids:
         found |= dict.fromkeys(f'"{fluid.name}": {text}' for text in _of_fluid(fluid, model))
     rubbing = (c for c in model.connections if isinstance(c, SurfaceContact | CableContact | BodyContact))
@@ -74,6 +90,36 @@ def _of_section(section: Section) -> Iterator[str]:
     if section.rho is not None and not LIGHTEST <= section.rho <= HEAVIEST:
         kind = "lighter" if section.rho < LIGHTEST else "heavier"
         yield f"rho = {section.rho:g} kg/m^3 is {kind} than any solid (in kg/m^3, steel has 7850)"
+
+
+def _of_gravity(model: Any) -> Iterator[str]:
+    size = float(np.linalg.norm(model.gravity))
+    if size > STRONGEST:
+        yield f"gravity of {size:g} m/s^2 is more than planets have, on Earth it is 9.81: is it in m/s^2?"
+
+
+def _of_line(section: Section, length: float) -> Iterator[str]:
+    """Numbers of a section that do not fit each other, or the length of its beam."""
+    if section.rhoA >= HEAVIEST_LINE:
+        yield f"rhoA = {section.rhoA:g} kg/m is more than any bridge has, some 5e4: is it in kg/m?"
+    speed = math.sqrt(section.EA) / math.sqrt(section.rhoA)
+    if not SLOWEST <= speed <= FASTEST:
+        what = f"with EA = {section.EA:g} N and rhoA = {section.rhoA:g} kg/m a pull runs along it at"
+        yield f"{what} {speed:.3g} m/s: rubber has some 30, steel 5000: is EA in N, rhoA in kg/m?"
+    stiffest = max(section.EI_y, section.EI_z)
+    thick = math.sqrt(stiffest) / math.sqrt(section.EA)
+    if thick > min(length, WIDEST):
+        what = f"EI = {stiffest:g} N m^2 with EA = {section.EA:g} N is that of a section some"
+        yield f"{what} {3.5 * thick:.3g} m thick, and it is {length:g} m long: is EI in N m^2, EA in N?"
+
+
+def _in_air(section: Section) -> Iterator[str]:
+    if section.diameter is None or section.rho is not None:
+        return
+    density = section.rhoA / (math.pi * section.diameter**2 / 4)
+    if density < AIR:
+        what = f"a diameter of {section.diameter:g} m and {section.rhoA:g} kg/m make {density:.3g} kg/m^3"
+        yield f"{what}, less than air: is its diameter in m, rhoA in kg/m?"
 
 
 def _in_fluid(section: Section, fluid: Fluid) -> Iterator[str]:
