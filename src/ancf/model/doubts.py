@@ -116,7 +116,7 @@ def _of_line(section: Section, length: float) -> Iterator[str]:
 def _in_air(section: Section) -> Iterator[str]:
     if section.diameter is None or section.rho is not None:
         return
-    density = section.rhoA / (math.pi * section.diameter**2 / 4)
+    density = section.rhoA / (0.25 * math.pi * section.diameter**2)
     if density < AIR:
         what = f"a diameter of {section.diameter:g} m and {section.rhoA:g} kg/m make {density:.3g} kg/m^3"
         yield f"{what}, less than air: is its diameter in m, rhoA in kg/m?"

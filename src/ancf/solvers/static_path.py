@@ -19,6 +19,7 @@ TOLERANCE = 1e-12  # of a correction, positions relative to the size of the mode
 MAX_ITERATIONS = 300  # in a load step
 PLAIN = 150  # of them without a line search
 MOST_HALVINGS = 12  # of a load step
+PROBED = 4  # halvings of a path's first step, after which the last that is left is tried before those between
 LEAST_SLOPE = 1e-6  # |r_x| of a cable, below which its direction and curvature mean nothing
 WHOLE = 1e-12  # of the path, by which its end may be missed
 SPUN = 1e-5  # accepted where sections or bodies spin freely, which leaves their angle open
@@ -46,15 +47,20 @@ def follow_path(it: Iteration, load: Callable[[float], float], steps: int, of: s
     share, part, halvings = 0.0, 1.0 / steps, 0
     while share < 1.0 - WHOLE:
         before = it.q.copy()
-        with np.errstate(all="ignore"):  # what overflows on the way is seen and halved
-            problem = settle(it, load(min(share + part, 1.0)))
+        problem = _step(it, load, share + part)
         if problem is None:
-            share = min(share + part, 1.0)
+            share, it.began = min(share + part, 1.0), True
             continue
         where, halvings = f"equilibrium at {share:.4g} {of}", halvings + 1
+        part = 0.5 * part
+        if share == 0.0 and halvings == PROBED and not it.kinks:
+            it.q, it.mu = before.copy(), 0.0
+            left = MOST_HALVINGS - halvings
+            probed = _step(it, load, 0.5**left * part)
+            if probed is not None:
+                problem, halvings = probed, MOST_HALVINGS + 1
         away = adrift(it, where) if halvings > MOST_HALVINGS else None
         it.q, it.mu = before, 0.0
-        part = 0.5 * part
         if halvings > MOST_HALVINGS:
             raise away or it.failure(where, problem, _advice(it, problem, where))
     return halvings
@@ -62,6 +68,14 @@ def follow_path(it: Iteration, load: Callable[[float], float], steps: int, of: s
 
 def _advice(it: Iteration, problem: str, where: str) -> str:
     """What to do about a path that cannot be followed beyond a place."""
+def _step(it: Iteration, load: Callable[[float], float], share: float) -> str | None:
+    """The equilibrium at a share of a path; None, or what went wrong: what overflows on the way is seen."""
+    with np.errstate(all="ignore"):
+        return settle(it, load(min(share, 1.0)))
+
+
+def _advice(it: Iteration, problem: str) -> str:
+    """What to do about a path that cannot be followed."""
     if problem.endswith(VANISHED):
         return "the load is too large for EA and EI, or a clamp must hold the stretch"
     turning = [beam.name for beam in it.system.model.beams.values() if beam.turns_its_bend]
