@@ -67,3 +67,28 @@ def test_what_is_probed_leaves_no_trace(pull, monkeypatch):
         assert first == [2.0**-k for k in range(4)] + [2.0**-12] * (probed < 99) + [2.0**-4, 2.0**-5]
     assert np.array_equal(found[0].q, found[1].q)
     assert [state.stats.retries for state in found] == [6, 6]
+
+
+@pytest.mark.parametrize("elements", [8, 16])
+def test_rings_whose_sections_turn(elements):
+    """Bent from a straight rod, all its sections turn about its axis against nothing: a clamp holds them."""
+    section = ancf.Section.rectangle(width=0.01, height=0.01, E=1e8, rho=500.0, nu=0.3)
+    for clamped in (False, True):
+        model = ancf.Model(gravity=(0, 0, -9.81))
+        ring = model.add_beam(
+            "ring",
+            path=lambda u: (0.5 * np.cos(2 * np.pi * u), 0.5 * np.sin(2 * np.pi * u), 0.0),
+            closed=True,
+            elements=elements,
+            section=section,
+            element="nonlocking",
+            natural_shape="straight",
+        )
+        if clamped:
+            model.clamp(ring.start)
+            state = ancf.equilibrium(model)
+            assert state.position(ring.at(0.5 * ring.length))[2] < 0.0
+            continue
+        model.pin(ring.start)
+        with pytest.raises(ancf.SolveError, match=r'"ring" is closed, .* sections turn .*: clamp it'):
+            ancf.equilibrium(model)

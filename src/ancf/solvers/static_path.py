@@ -88,7 +88,20 @@ def _advice(it: Iteration, problem: str) -> str:
     if where.endswith(" 0 of the load"):
         alone = "if none help, natural lengths alone leave no equilibrium near the initial shape"
         return f"give more load_steps; {alone}: draw it nearer to one, or run it with damping from there"
+    if name := _closed_and_turning(it):
+        what = f'"{name}" is closed, and nothing determines how far its sections turn about its axis'
+        return f"{what}: clamp it at a point"
     return "give more load_steps"
+
+
+def _closed_and_turning(it: Iteration) -> str:
+    """Name of a closed beam whose sections turn freely, as of a ring bent from a straight rod, if any."""
+    for name, beam in it.system.model.beams.items():
+        if beam.closed and beam.has_section:
+            slots = it.system.numbering.each(name)[:, 2:4].ravel()
+            if not np.isin(slots[:, None] + np.arange(3), it.core.supports.held).all(axis=1).any():
+                return name
+    return ""
 
 
 def _cable_at(it: Iteration, slot: int) -> str:
