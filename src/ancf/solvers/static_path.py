@@ -66,16 +66,14 @@ def follow_path(it: Iteration, load: Callable[[float], float], steps: int, of: s
     return halvings
 
 
-def _advice(it: Iteration, problem: str, where: str) -> str:
-    """What to do about a path that cannot be followed beyond a place."""
 def _step(it: Iteration, load: Callable[[float], float], share: float) -> str | None:
     """The equilibrium at a share of a path; None, or what went wrong: what overflows on the way is seen."""
     with np.errstate(all="ignore"):
         return settle(it, load(min(share, 1.0)))
 
 
-def _advice(it: Iteration, problem: str) -> str:
-    """What to do about a path that cannot be followed."""
+def _advice(it: Iteration, problem: str, where: str) -> str:
+    """What to do about a path that cannot be followed beyond a place."""
     if problem.endswith(VANISHED):
         return "the load is too large for EA and EI, or a clamp must hold the stretch"
     turning = [beam.name for beam in it.system.model.beams.values() if beam.turns_its_bend]
