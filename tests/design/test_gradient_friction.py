@@ -166,6 +166,7 @@ def test_blocks_that_are_taken_again(steps, elements, monkeypatch):
     monkeypatch.setattr(adjoint, "BLOCK", 1.0)
     _, kept = ancf.gradient(model, TIP, NAMES + GROUND, **given)
     monkeypatch.setattr(adjoint, "KEPT", 0.0)
+    monkeypatch.setattr(adjoint, "LARGEST", 1.0)
     _, again = ancf.gradient(model, TIP, NAMES + GROUND, **given)
     assert again == kept
     assert apart(model, at_once, kept) < 1e-9

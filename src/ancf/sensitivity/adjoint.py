@@ -37,8 +37,9 @@ from .remembering import friction_of
 from .start import Start
 from .weighed import Weighed
 
-#: Bytes of states up to which all are kept and no step is taken again, and those of a block.
-KEPT, BLOCK = 320e6, 8e6
+#: Bytes of states up to which all are kept and no step is taken again, and those of a block; of one that
+#: begins with a snapshot, which is as large as some of its steps.
+KEPT, BLOCK, LARGEST = 320e6, 8e6, 128e6
 
 
 class UnsolvedError(SolveError):
@@ -124,9 +125,7 @@ class Adjoint:
         self.begun = self.memory.keep(run) if self.memory else {}
         times, found = [t], [self.objective.histories(q, v)]
         keep = 24.0 * size * run.steps <= KEPT
-        most = max(1, min(int(BLOCK / (8 * size * (6 * len(self.nearby.others) + 12))), run.steps))
-        if not keep:
-            most = min(most, max(16, int(np.sqrt(run.steps))))
+        most = self._most(keep)
         while run.done < run.steps:
             h = run.h if run.done < run.full else run.rest
             block = Block(run.done, self._count(most), h, None if keep else run.snapshot())
@@ -141,6 +140,12 @@ class Adjoint:
             self.blocks.append(block)
         self.t = np.concatenate(times)
         return self.t, {key: np.concatenate([one[key] for one in found]) for key in found[0]}
+
+    def _most(self, keep: bool) -> int:
+        """Steps of a block at most; with snapshots as many as there are blocks, as far as they have room."""
+        each, steps = 8 * self.system.size * (6 * len(self.nearby.others) + 12), int(self.run.steps)
+        most = BLOCK / each if keep else min(LARGEST / each, max(16, np.sqrt(steps)))
+        return max(1, min(int(most), steps))
 
     def _count(self, most: int) -> int:
         """Steps of the next block: so many that what the run hands over at once need not be put together."""
