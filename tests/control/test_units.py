@@ -149,13 +149,14 @@ class TestBadInput:
             ({"inputs": {"hed": float}}, "FmuController.inputs", 'did you mean "head"'),
             ({"inputs": {"force": float}}, "FmuController.inputs", 'must be one of "head", "rate"'),
             ({"inputs": {"head": 3.0}}, "FmuController.inputs['head']", "must be a function of the run"),
+            ({"inputs": {"head": float}}, "FmuController.inputs['head']", "is the class float"),
             ({"outputs": {"lift": "mass"}}, "FmuController.outputs", 'must be one of "force"'),
             ({"parameters": {"mass": "heavy"}}, "FmuController.parameters['mass']", "must be a number"),
             ({"step": 0.0}, "FmuController.step", "must be > 0"),
         ],
     )
     def test_names_and_numbers(self, frames, change, where, what):
-        given = {"step": 0.01, "inputs": {"head": float}, "outputs": {"lift": "force"}} | change
+        given = {"step": 0.01, "inputs": {"head": abs}, "outputs": {"lift": "force"}} | change
         with pytest.raises(ModelError) as error:
             ancf.FmuController(frames["2"], **given)
         assert error.value.where == where

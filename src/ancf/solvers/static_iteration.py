@@ -66,8 +66,6 @@ class Iteration:
     last_moved: int = 0  # entry that it changed most
     held: bool = False  # whether surfaces and friction hold what they touch
     plain: bool = True  # whether an indefinite matrix is taken as it is where loads follow
-    began: bool = False  # whether a step of a path was found
-    kinks: bool = False  # whether something grips or holds, which may fail in small steps alone
     laid: FloatArray | None = None  # where cables lay without friction, if that acts from there
 
     def __post_init__(self) -> None:

@@ -19,7 +19,6 @@ TOLERANCE = 1e-12  # of a correction, positions relative to the size of the mode
 MAX_ITERATIONS = 300  # in a load step
 PLAIN = 150  # of them without a line search
 MOST_HALVINGS = 12  # of a load step
-PROBED = 4  # halvings of a path's first step, after which the last that is left is tried before those between
 LEAST_SLOPE = 1e-6  # |r_x| of a cable, below which its direction and curvature mean nothing
 WHOLE = 1e-12  # of the path, by which its end may be missed
 SPUN = 1e-5  # accepted where sections or bodies spin freely, which leaves their angle open
@@ -47,29 +46,18 @@ def follow_path(it: Iteration, load: Callable[[float], float], steps: int, of: s
     share, part, halvings = 0.0, 1.0 / steps, 0
     while share < 1.0 - WHOLE:
         before = it.q.copy()
-        problem = _step(it, load, share + part)
+        with np.errstate(all="ignore"):  # what overflows on the way is seen and halved
+            problem = settle(it, load(min(share + part, 1.0)))
         if problem is None:
-            share, it.began = min(share + part, 1.0), True
+            share = min(share + part, 1.0)
             continue
         where, halvings = f"equilibrium at {share:.4g} {of}", halvings + 1
-        part = 0.5 * part
-        if share == 0.0 and halvings == PROBED and not it.kinks:
-            it.q, it.mu = before.copy(), 0.0
-            left = MOST_HALVINGS - halvings
-            probed = _step(it, load, 0.5**left * part)
-            if probed is not None:
-                problem, halvings = probed, MOST_HALVINGS + 1
         away = adrift(it, where) if halvings > MOST_HALVINGS else None
         it.q, it.mu = before, 0.0
+        part = 0.5 * part
         if halvings > MOST_HALVINGS:
             raise away or it.failure(where, problem, _advice(it, problem, where))
     return halvings
-
-
-def _step(it: Iteration, load: Callable[[float], float], share: float) -> str | None:
-    """The equilibrium at a share of a path; None, or what went wrong: what overflows on the way is seen."""
-    with np.errstate(all="ignore"):
-        return settle(it, load(min(share, 1.0)))
 
 
 def _advice(it: Iteration, problem: str, where: str) -> str:
@@ -86,20 +74,7 @@ def _advice(it: Iteration, problem: str, where: str) -> str:
     if where.endswith(" 0 of the load"):
         alone = "if none help, natural lengths alone leave no equilibrium near the initial shape"
         return f"give more load_steps; {alone}: draw it nearer to one, or run it with damping from there"
-    if name := _closed_and_turning(it):
-        what = f'"{name}" is closed, and nothing determines how far its sections turn about its axis'
-        return f"{what}: clamp it at a point"
     return "give more load_steps"
-
-
-def _closed_and_turning(it: Iteration) -> str:
-    """Name of a closed beam whose sections turn freely, as of a ring bent from a straight rod, if any."""
-    for name, beam in it.system.model.beams.items():
-        if beam.closed and beam.has_section:
-            slots = it.system.numbering.each(name)[:, 2:4].ravel()
-            if not np.isin(slots[:, None] + np.arange(3), it.core.supports.held).all(axis=1).any():
-                return name
-    return ""
 
 
 def _cable_at(it: Iteration, slot: int) -> str:

@@ -166,11 +166,7 @@ def attempt(it: Iteration, slack: Slack, turning: Turning, load_steps: int) -> i
     together until it buckles.
     """
     first, q = None, it.q.copy()
-    attempts = _attempts(it.core, q)
-    it.kinks = len(attempts) > 1
-    for (finer, holds), plain in product(attempts, _plain(it)):
-        if finer > 1 and not it.began:
-            break
+    for (finer, holds), plain in product(_attempts(it.core, q), _plain(it)):
         it.q, it.mu, it.held, it.plain, it.laid = q.copy(), 0.0, holds, plain, None
         it.system.bring_memory(it.begun)
         grips(it.core, it.q, holds)
