@@ -196,8 +196,11 @@ def test_objects_that_can_be_called_are_functions():
 )
 def test_sensors_are_no_tables(item):
     for ask in (ancf.verify, ancf.simulate):
+        model = _model()
+        ball = model.add_point_mass("ball", at=(0, 0, 1), mass=1.0)
+        model.add_spring(ball, (0, 0, 2), stiffness=5.0, name="stay")
         with pytest.raises(ModelError, match=r"\.sensors(\[0\])?: must be a (list of )?points?"):
-            ask(_model(), **TIME, sensors=item)
+            ask(model, **TIME, sensors=item)
 
 
 @pytest.mark.parametrize("size", [np.ones(3), [1, 3], "3", 3.0, 2, 0, -1, True, int], ids=repr)
