@@ -102,18 +102,16 @@ def test_forwards_where_the_adjoint_cannot(monkeypatch):
 @pytest.mark.parametrize("seed", [1, 2, 3])
 def test_derivatives_of_numbers(seed):
     """Against differences of numpy's mean and deviation, sample by sample."""
-    x, of = (
-        np.random.default_rng(seed).uniform(80.0, 150.0, 40),
-        {
-            "mean_force": np.mean,
-            "deviation": np.std,
-            "mean_plus_3_sigma": lambda y: np.mean(y) + 3.0 * np.std(y),
-            "mean_minus_3_sigma": lambda y: np.mean(y) - 3.0 * np.std(y),
-            "maximum": np.max,
-            "minimum": np.min,
-            "relative_deviation": lambda y: np.std(y) / np.mean(y),
-        },
-    )
+    x = np.random.default_rng(seed).uniform(80.0, 150.0, 40)
+    of = {
+        "mean_force": np.mean,
+        "deviation": np.std,
+        "mean_plus_3_sigma": lambda y: np.mean(y) + 3.0 * np.std(y),
+        "mean_minus_3_sigma": lambda y: np.mean(y) - 3.0 * np.std(y),
+        "maximum": np.max,
+        "minimum": np.min,
+        "relative_deviation": lambda y: np.std(y) / np.mean(y),
+    }
     found = of_filtered(x)
     assert found.keys() == of.keys()
     for key, number in of.items():

@@ -41,8 +41,7 @@ class Numbers:
         self.model, self.names, self.settings = model, list(names), dict(settings)
         self.begin, self.where = begin, where
         if not isinstance(model, Model) and not checks.is_function(model):
-            shown = f"the class {model.__name__}" if isinstance(model, type) else checks.shown(model)
-            what = f"must be a Model or a function that builds one, is {shown}"
+            what = f"must be a Model or a function that builds one, is {checks.named(model)}"
             raise ModelError(f"{where}.model", what)
         if isinstance(model, Model):
             for name in self.names:

@@ -33,6 +33,11 @@ def shown(value: object, limit: int = 60) -> str:
     return text if len(text) <= limit else text[: limit - 3] + "..."
 
 
+def named(value: object) -> str:
+    """The same of what should be no class, which is called by its name."""
+    return f"the class {value.__name__}" if isinstance(value, type) else shown(value)
+
+
 def spot(r: FloatArray) -> str:
     """A vector for a message, in six digits."""
     return f"({', '.join(f'{x:.6g}' for x in r.tolist())})"
@@ -162,8 +167,7 @@ def function(value: object, where: str, of: str, hint: str = "") -> None:
         return
     if isinstance(value, type):
         hint = hint or "what a class makes is not used: give a function, or an object that can be called"
-        raise ModelError(where, f"must be a function of {of}, is the class {value.__name__}", hint)
-    raise ModelError(where, f"must be a function of {of}, is {shown(value)}", hint)
+    raise ModelError(where, f"must be a function of {of}, is {named(value)}", hint)
 
 
 def progress(value: object, where: str) -> None:

@@ -109,7 +109,7 @@ def _growing(path: Path) -> Any:
     """Open a file that is marked as being written, after all of it could be read once."""
     begun, pauses = time.monotonic(), iter(PAUSES)
     while True:
-        size = path.stat().st_size
+        size = _head(path)[1]
         try:
             with Unmarked(path) as plain, h5py.File(plain, "r") as file:
                 _look_over(path, file, whole=True)
@@ -117,7 +117,7 @@ def _growing(path: Path) -> Any:
         except ModelError:
             raise
         except DAMAGED as error:
-            if path.stat().st_size > size and time.monotonic() < begun + LIVELY:
+            if _head(path)[1] > size and time.monotonic() < begun + LIVELY:
                 continue  # read while a run wrote it
             pause = next(pauses, None)
             if pause is None:

@@ -15,6 +15,7 @@ from .free_spin import softest_mode
 from .static_iteration import MORE_MU, Iteration
 from .status import VANISHED
 
+LOAD = "of the load"  # what a path is one of, for messages
 TOLERANCE = 1e-12  # of a correction, positions relative to the size of the model
 MAX_ITERATIONS = 300  # in a load step
 PLAIN = 150  # of them without a line search
@@ -56,12 +57,12 @@ def follow_path(it: Iteration, load: Callable[[float], float], steps: int, of: s
         it.q, it.mu = before, 0.0
         part = 0.5 * part
         if halvings > MOST_HALVINGS:
-            raise away or it.failure(where, problem, _advice(it, problem, where))
+            raise away or it.failure(where, problem, _advice(it, problem, share == 0.0 and of == LOAD))
     return halvings
 
 
-def _advice(it: Iteration, problem: str, where: str) -> str:
-    """What to do about a path that cannot be followed beyond a place."""
+def _advice(it: Iteration, problem: str, unloaded: bool) -> str:
+    """What to do about a path that cannot be followed; ``unloaded``: from where no load acts yet."""
     if problem.endswith(VANISHED):
         return "the load is too large for EA and EI, or a clamp must hold the stretch"
     turning = [beam.name for beam in it.system.model.beams.values() if beam.turns_its_bend]
@@ -71,7 +72,7 @@ def _advice(it: Iteration, problem: str, where: str) -> str:
     if it.last < NEAR and (name := _cable_at(it, it.last_moved)):
         what = f'"{name}" finds no rest: where it has no tension nothing holds it sideways'
         return f"{what}; hold or pull its ends, give it EI, or begin a run from the initial shape"
-    if where.endswith(" 0 of the load"):
+    if unloaded:
         alone = "if none help, natural lengths alone leave no equilibrium near the initial shape"
         return f"give more load_steps; {alone}: draw it nearer to one, or run it with damping from there"
     return "give more load_steps"

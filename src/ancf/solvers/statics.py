@@ -29,7 +29,7 @@ from .pressed import least_stretch
 from .record import Stats
 from .slack import LET_OUT, Slack
 from .static_iteration import Iteration
-from .static_path import follow_path, settle
+from .static_path import LOAD, follow_path, settle
 from .turning import Turning
 
 STENCIL_STEP = 1e-3  # of the differences that give rates of given motions, s
@@ -114,7 +114,7 @@ def bring_on(it: Iteration, slack: Slack, turning: Turning, load_steps: int) -> 
     slack.set(1.0, 1.0)
     turning.begin(it)
     steps = max(load_steps, turning.steps)
-    halvings = follow_path(it, lambda share: turning.load(it, share), steps, "of the load")
+    halvings = follow_path(it, lambda share: turning.load(it, share), steps, LOAD)
     if slack.found:
         halvings += follow_path(it, slack.let_out, LET_OUT, "of the slack")
         try:
