@@ -101,7 +101,8 @@ class TestExtremes:
         least, most = int(table["z"].argmin()), int(table["z"].argmax())
         lines = [line.split() for line in ran.out.splitlines()]
         (row,) = [line for line in lines if line[:1] == ["z"]]
-        assert (row[4], row[6]) == (str(least), str(most))
+        assert row[1] == "[m]"
+        assert (row[5], row[7]) == (str(least), str(most))
         for case, said in ((least, "smallest"), (most, "largest")):
             (row,) = [line for line in lines if line[:1] == [str(case)]]
             assert row == [str(case), f"{table['push'][case]:g}", said, "z"]

@@ -83,10 +83,15 @@ def read_file(path: str | Path, values: Mapping[str, Any] | None = None) -> Line
 
 def other_values(tables: dict[str, Any], values: Mapping[str, Any]) -> dict[str, Any]:
     """Tables of a line file with other values at some paths; those of its states need not stand there."""
-    for key in ("conditions", "dropper_errors"):
+    for key, empty in with_states({}).items():
         if any(path.startswith(f"{key}.") for path in values):
-            tables = {key: {}} | tables
+            tables = {key: empty} | tables
     return changed(tables, values)
+
+
+def with_states(tables: dict[str, Any]) -> dict[str, Any]:
+    """Tables of a line file with those of its states, empty where it has none."""
+    return {"conditions": {}, "dropper_errors": {}} | tables
 
 
 def parse_track(data: dict[str, Any], source: str = "line") -> Line | Route:

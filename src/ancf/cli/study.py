@@ -45,6 +45,7 @@ def run_study(path: Path, folder: Path, options: dict[str, Any], quiet: bool = F
     try:
         with cases_progress(screen) as progress:
             more = {"folder": folder, "progress": progress, "title": given.title, "files": files}
+            more["units"] = given.units
             study(given.case, given.samples, **more, **options)
     except KeyboardInterrupt as error:
         error.add_note(f"what has ended is kept in {folder}: the same command goes on")
@@ -127,16 +128,17 @@ def _tell(made: dict[str, Any], folder: Path, report: bool, quiet: bool) -> None
 def _show(made: dict[str, Any], folder: Path, report: bool) -> None:
     from ..design.finished import FILES
     from ..design.report.tables import extreme_cases
+    from ..design.statistics import labelled
 
     where, shown = console(), table("output", "mean", "deviation", "smallest", "case", "largest", "case")
-    found = made["statistics"]
+    found, units = made["statistics"], made.get("units", {})
     for name, row in found["outputs"].items():
         mean, deviation, least, most = (_number(row.get(key)) for key in NUMBERS)
         cases = (str(row.get(key, "-")) for key in ("minimum_case", "maximum_case"))
-        shown.add_row(name, mean, deviation, least, next(cases), most, next(cases))
+        shown.add_row(labelled(units, name), mean, deviation, least, next(cases), most, next(cases))
     where.print(shown)
     if found["extremes"]:
-        heads, rows = extreme_cases(found, [*found["outputs"]])
+        heads, rows = extreme_cases(found, [*found["outputs"]], units)
         shown = table(*heads)
         for cells in rows:
             shown.add_row(*cells)

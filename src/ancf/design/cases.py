@@ -14,7 +14,9 @@ from ..arrays import FloatArray
 from ..errors import ModelError
 from ..model.file.paths import PathError, changed
 from ..viz.pictures.questions import QUANTITIES, ask
+from ..viz.style import UNITS
 from .formulas import Formula, Vocabulary
+from .units import FileUnits
 from .work import Noted
 
 if TYPE_CHECKING:
@@ -67,6 +69,12 @@ class ModelCase:
                 what = f'"{formula.text}": {FREQUENCY} has as many entries as there are motions'
                 raise ModelError(formula.where, what, f"name one from the lowest, {FREQUENCY}[0]")
         return made
+
+    def units(self) -> FileUnits:
+        """Units of what stands in the file and in formulas."""
+        from ..model.file import schema
+
+        return FileUnits(self.tables, schema(), UNITS)
 
     def read(self, values: Mapping[str, Any]) -> Study:
         """The study of the model file with these values, by name."""

@@ -47,6 +47,7 @@ class ParameterEntry(Entry):
 
     path: str = Field(description="Path of a number of the model or line file, such as sections.rope.EA.")
     name: str | None = Field(None, description="Its column in the table, default the path.")
+    unit: str | None = Field(None, description="For the report, default that of the path.")
     values: list[float | int | str] | None = Field(None, description="Some values [of the parameter].")
     grid: GridEntry | None = Field(None, description="Evenly spaced values.")
     distribution: Annotated[Any, checked(lambda v: distribution_of(v, ""))] = Field(
@@ -75,6 +76,7 @@ class OutputEntry(Entry):
 
     name: str = Field(description="Its column in the table.")
     formula: str = Field(description="Formula of sensors or statistics, such as max(tension(cable.start)).")
+    unit: str | None = Field(None, description="For the report, default what the formula tells.")
 
 
 class StudyEntry(Entry):
@@ -110,11 +112,14 @@ class StudyFile:
         Called with the values of a case.
     samples : DataFrame
         A row for each case.
+    units : mapping
+        Of the columns whose unit is known.
     """
 
     title: str
     case: FileCase
     samples: DataFrame
+    units: Mapping[str, str]
 
 
 @dataclass(frozen=True)
@@ -182,7 +187,8 @@ def read_study_file(path: str | Path) -> StudyFile:
         except PathError as error:
             raise _of_path(error, entry) from None
     title = entry.title or str(case.tables.get("title", ""))
-    return StudyFile(title, FileCase(case, fingerprints([*read, *checked_too])), samples)
+    made = FileCase(case, fingerprints([*read, *checked_too]))
+    return StudyFile(title, made, samples, _units(entry, names, case))
 
 
 def _of_path(error: PathError, entry: StudyEntry) -> ModelError:
@@ -211,6 +217,17 @@ def _names(entry: StudyEntry) -> list[str]:
             if name in found[:k] or name in own or (group == "outputs" and name in names):
                 raise ModelError(f"{group}[{k}].name", f'"{name}" is the name of another column already')
     return names
+
+
+def _units(entry: StudyEntry, names: list[str], case: ModelCase | LineCase) -> dict[str, str]:
+    """Units of the columns as the file gives them, else as paths and formulas tell."""
+    known = case.units()
+    found = {
+        name: known.at(p.path) if p.unit is None else p.unit
+        for name, p in zip(names, entry.parameters, strict=True)
+    }
+    found |= {o.name: known.of(o.formula) if o.unit is None else o.unit for o in entry.outputs}
+    return {name: unit for name, unit in found.items() if unit is not None}
 
 
 def _case(entry: StudyEntry, path: Path, paths: dict[str, str]) -> ModelCase | LineCase:

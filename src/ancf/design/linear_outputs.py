@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
@@ -23,6 +22,7 @@ from ..viz.style import UNITS
 from .backwards import gradient_of
 from .cases import sensor_of
 from .formulas import Formula, Vocabulary
+from .units import unit_of_formula
 
 WHERE = "linearise.outputs"
 #: Quantities that have no linear part, and why.
@@ -36,8 +36,6 @@ ACCELERATION = "acceleration"
 OF_STATE = Vocabulary((), (*QUANTITIES, ACCELERATION))
 #: Those that follow from accelerations.
 BY_INERTIA = (ACCELERATION, "reaction", "reaction_moment")
-#: One question, perhaps with a place in its answer.
-PLAIN = re.compile(r"\s*(\w+)\(([^()]|\([^()]*\))*\)\s*(\[\s*-?\d+\s*\])?\s*")
 #: By which ratio the bend of a smooth quantity falls at least with half the step, and which share of the
 #: largest slope is a kink.
 FALLS, KINK = 1.4, 1e-4
@@ -77,9 +75,8 @@ def formulas_of(model: Model, outputs: Any) -> dict[str, Formula]:
 
 
 def unit_of(formula: Formula) -> str:
-    """Unit of a formula that is one question, else ""."""
-    found = PLAIN.fullmatch(formula.text)
-    return (({ACCELERATION: "m/s^2"} | UNITS).get(found[1]) or "") if found else ""
+    """Unit of a formula, "" where it does not tell."""
+    return unit_of_formula(formula.text, {ACCELERATION: "m/s^2"} | UNITS) or ""
 
 
 class _Found:

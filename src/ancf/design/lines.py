@@ -14,6 +14,7 @@ from ..model import checks
 from .cases import check_paths
 from .formulas import Formula, Vocabulary
 from .run_settings import PANTOGRAPH, check_pantographs
+from .units import FileUnits
 
 if TYPE_CHECKING:
     from ..catenary import Line, Route, Statistics
@@ -58,6 +59,15 @@ STATISTICS = (
     "raw_height_range",
 )
 SIGMA, HIGHEST = "sigma", "uplift_maximum"
+#: Units of them all.
+UNITS: dict[str, str | None] = {
+    **dict.fromkeys((*OF_FORCE, SIGMA, "dropper_maximum"), "N"),
+    **dict.fromkeys(("dropper_load", "support_load", "dropper_force"), "N"),
+    **dict.fromkeys(("dropper_length", "dropper_unstretched", "contact_height"), "m"),
+    **dict.fromkeys(("uplift", HIGHEST, "height_range", "raw_height_range"), "mm"),
+    **dict.fromkeys(("relative_deviation", "loss_number", "slack_droppers", "slack_number"), ""),
+    **{"loss": "%", "loss_longest": "ms", "slack_longest": "ms"},
+}
 RUN = "run."
 #: Settings of the table [run]: those of ``ancf catenary run``, and the pantograph that is evaluated.
 SETTINGS = (
@@ -106,6 +116,13 @@ class LineCase:
         names = (*OF_FORM, *((SIGMA, HIGHEST, *STATISTICS, *OF_RUN) if self.run is not None else ()))
         words = Vocabulary(names)
         return [(name, Formula(text, f"outputs.{name}", words)) for name, text in self.outputs]
+
+    def units(self) -> FileUnits:
+        """Units of what stands in the file and in formulas."""
+        from ..catenary.entries import LineEntry
+        from ..catenary.file import with_states
+
+        return FileUnits(with_states(self.tables), LineEntry.model_json_schema(), UNITS)
 
     def read(self, values: Mapping[str, Any]) -> tuple[Line | Route, dict[str, Any]]:
         """The line with these values, by name, and the settings of its run."""

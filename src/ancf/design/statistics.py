@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -71,6 +71,16 @@ def outputs_of(table: DataFrame) -> list[str]:
     """Names of the outputs."""
     names: list[str] = table.attrs["outputs"]
     return names
+
+
+def labelled(units: Mapping[str, str], name: str) -> str:
+    """A name with its unit, "pull [N]", or alone where that is not known."""
+    return name if name not in units else f"{name} [{units[name] or '-'}]"
+
+
+def label_of(table: DataFrame, name: str) -> str:
+    """The same of a column of a table."""
+    return labelled(table.attrs.get("units", {}), name)
 
 
 def column(table: DataFrame, name: str) -> FloatArray:

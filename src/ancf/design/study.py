@@ -78,6 +78,7 @@ def study(
     report: bool = True,
     progress: Callable[[Step], None] | None = None,
     title: str = "",
+    units: Mapping[str, str] | None = None,
     files: Mapping[str, str] | None = None,
 ) -> DataFrame:
     """Call a function for every row of a table and gather the numbers that it returns.
@@ -106,6 +107,8 @@ def study(
         Called with a :class:`Step` when cases have ended.
     title : str
         Of the report, default the name of the function.
+    units : mapping, optional
+        Units of parameters and outputs by their names, for the report and ``study.json``.
     files : mapping, optional
         Hashes of the files that make the study, kept in ``study.json``.
 
@@ -153,6 +156,7 @@ def study(
         finally:
             journal.close()
         table = table_of(samples, rows, known)
+        table.attrs["units"] = _checked_units(units or {}, table)
         if place is not None:
             seconds = _seconds(known, wanted)
             about = {
@@ -160,6 +164,7 @@ def study(
                 "function": identity(function),
                 "seconds": seconds,
                 "read": read,
+                "units": table.attrs["units"],
             }
             stamp = hashlib.sha256(repr((about, [*map(case_key, rows)], samples.attrs)).encode()).hexdigest()
             write_all(place, table, {**about, "stamp": stamp, "files": files or {}}, report)
@@ -244,6 +249,16 @@ def table_of(samples: DataFrame, rows: list[dict[str, Any]], known: Mapping[str,
     made.index.name = CASE
     made.attrs = {**samples.attrs, "outputs": [*names], "parameters": [str(n) for n in samples.columns]}
     return made
+
+
+def _checked_units(units: Any, table: DataFrame) -> dict[str, str]:
+    """Units by columns of a table; ModelError if there is another one, or a unit is no text."""
+    names = [*table.attrs["parameters"], *table.attrs["outputs"]]
+    for name, unit in checks.mapping(units, "study.units").items():
+        if name not in names:
+            raise ModelError("study.units", f'there is no column "{name}"', checks.nearest(str(name), names))
+        checks.text(unit, f'study.units["{name}"]')
+    return dict(units)
 
 
 def _journal(place: Path | None) -> Path | None:

@@ -46,7 +46,7 @@ def write_report(path: Path, table: DataFrame, found: dict[str, Any], about: dic
     style.require_matplotlib()
     title = about.get("title") or "Study"
     names = outputs_of(table)
-    parts = [section("Outputs", "outputs", *_outputs(found, names))] if names else []
+    parts = [section("Outputs", "outputs", *_outputs(table, found, names))] if names else []
     parts += [_of_output(table, found, name) for name in names[:MOST_OUTPUTS]]
     if found["failed"]:
         parts.append(section("Failed cases", "failed", tables.failed(table, MOST_MESSAGES)))
@@ -66,14 +66,15 @@ def _head(table: DataFrame, about: dict[str, Any]) -> str:
     return f"{cases} of {varied}, sampling: {method}."
 
 
-def _outputs(found: dict[str, Any], names: list[str]) -> Iterator[Element]:
-    yield tables.summary(found, names)
+def _outputs(table: DataFrame, found: dict[str, Any], names: list[str]) -> Iterator[Element]:
+    units = table.attrs.get("units", {})
+    yield tables.summary(found, names, units)
     if found["extremes"]:
         yield element("h3", "Smallest and largest")
-        yield tables.extremes(found, names)
+        yield tables.extremes(found, names, units)
     if any("percentiles" in found["outputs"][name] for name in names):
         yield element("h3", "Percentiles")
-        yield tables.percentiles(found, names)
+        yield tables.percentiles(found, names, units)
         text = (
             "Below each percentile its 95 % confidence interval, from the order of the values alone; "
             "an end is open where there are too few cases."

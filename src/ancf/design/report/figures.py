@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...viz import style
-from ..statistics import column, drawn_rows, exceedance, parameters_of
+from ..statistics import column, drawn_rows, exceedance, label_of, parameters_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -88,14 +88,14 @@ def _distribution(figure: Figure, table: DataFrame, found: dict[str, Any], name:
     left.hist(good, bins=min(60, max(8, int(np.sqrt(len(good))))), color=style.SKY, edgecolor="white", lw=0.3)
     mean = found["outputs"][name]["mean"]
     left.axvline(mean, color=style.BLACK, lw=1.0)
-    left.set_xlabel(name)
+    left.set_xlabel(label_of(table, name))
     left.set_ylabel("cases")
     ordered, above, low, high = exceedance(values)
     right.fill_between(ordered, low, high, step="post", color=style.LIGHT, alpha=0.6, lw=0)
     right.step(ordered, above, where="post", color=style.BLUE)
     right.set_yscale("log")
     right.set_ylim(0.3 / len(ordered), 1.3)
-    right.set_xlabel(name)
+    right.set_xlabel(label_of(table, name))
     right.set_ylabel("share of cases above")
 
 
@@ -109,8 +109,8 @@ def _scatter(figure: Figure, table: DataFrame, found: dict[str, Any], name: str)
         if len(parameters_of(table)) == 1 and len(np.unique(x)) == len(x):  # a curve
             order = np.argsort(x)
             axes.plot(x[order], y[good][order], color=style.BLUE, lw=0.8)
-        axes.set_xlabel(key)
-        axes.set_ylabel(name)
+        axes.set_xlabel(label_of(table, key))
+        axes.set_ylabel(label_of(table, name))
 
 
 def _effects(figure: Figure, table: DataFrame, found: dict[str, Any], name: str) -> None:
@@ -120,8 +120,8 @@ def _effects(figure: Figure, table: DataFrame, found: dict[str, Any], name: str)
         at = _numeric(axes, np.array([row["at"] for row in rows], dtype=object))
         means, errors = [row["mean"] for row in rows], [row["error"] or 0.0 for row in rows]
         axes.errorbar(at, means, yerr=errors, color=style.BLUE, marker="o", ms=3, capsize=2, lw=1.0)
-        axes.set_xlabel(key)
-        axes.set_ylabel(f"mean of {name}")
+        axes.set_xlabel(label_of(table, key))
+        axes.set_ylabel(f"mean of {label_of(table, name)}")
         axes.set_title(_explains(found["effects"][name][key]), fontsize=7)
     low = min(axes.get_ylim()[0] for axes in panels[: len(names)])
     high = max(axes.get_ylim()[1] for axes in panels[: len(names)])
@@ -160,7 +160,7 @@ def _tornado(figure: Figure, table: DataFrame, found: dict[str, Any], name: str)
         )
     axes.axvline(middle, color=style.BLACK, lw=0.8)
     axes.set_yticks(places, [row[0] for row in rows])
-    axes.set_xlabel(f"mean of {name}")
+    axes.set_xlabel(f"mean of {label_of(table, name)}")
     axes.grid(axis="y", visible=False)
     style.legend_above(figure, axes)
 

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
 from ...viz.html import pairs, table
-from ..statistics import outputs_of, parameters_of
+from ..statistics import label_of, labelled, outputs_of, parameters_of
 
 if TYPE_CHECKING:
     from xml.etree.ElementTree import Element
@@ -35,10 +35,10 @@ def number(value: Any) -> str:
     return value if isinstance(value, str) else f"{value:.5g}"
 
 
-def summary(found: dict[str, Any], names: list[str]) -> Element:
+def summary(found: dict[str, Any], names: list[str], units: Mapping[str, str]) -> Element:
     """Mean, deviation and extremes of the outputs."""
     heads = ("output", "cases", "mean", "95 % confidence", "deviation", "smallest", "case", "largest", "case")
-    rows = (_summary_row(name, found["outputs"][name]) for name in names)
+    rows = (_summary_row(labelled(units, name), found["outputs"][name]) for name in names)
     return table(heads, rows, range(1, len(heads)))
 
 
@@ -50,13 +50,15 @@ def _summary_row(name: str, row: dict[str, Any]) -> list[str]:
     return [name, str(row["count"]), cells[0], within, cells[1], cells[2], least, cells[3], most]
 
 
-def extremes(found: dict[str, Any], names: list[str]) -> Element:
+def extremes(found: dict[str, Any], names: list[str], units: Mapping[str, str]) -> Element:
     """Parameters of the cases in which outputs are smallest or largest."""
-    heads, rows = extreme_cases(found, names)
+    heads, rows = extreme_cases(found, names, units)
     return table(heads, rows, range(1, len(heads) - 1))
 
 
-def extreme_cases(found: dict[str, Any], names: list[str]) -> tuple[list[str], list[list[str]]]:
+def extreme_cases(
+    found: dict[str, Any], names: list[str], units: Mapping[str, str]
+) -> tuple[list[str], list[list[str]]]:
     """Heads and rows of a table: cases, their first parameters, and what is extreme in them."""
     cases = {row["case"]: row["parameters"] for row in found["extremes"]}
     heads = [*next(iter(cases.values()), {})][:MOST_PARAMETERS]
@@ -69,17 +71,17 @@ def extreme_cases(found: dict[str, Any], names: list[str]) -> tuple[list[str], l
         [str(case), *(number(cases[case][name]) for name in heads), ", ".join(texts)]
         for case, texts in said.items()
     ]
-    return ["case", *heads, "in it"], rows
+    return ["case", *(labelled(units, name) for name in heads), "in it"], rows
 
 
-def percentiles(found: dict[str, Any], names: list[str]) -> Element:
+def percentiles(found: dict[str, Any], names: list[str], units: Mapping[str, str]) -> Element:
     """Percentiles of the outputs, with their intervals in a row below."""
     drawn = {name: found["outputs"][name].get("percentiles", []) for name in names}
     heads = ["output", *(f"{p['percent']:g} %" for p in next(rows for rows in drawn.values() if rows))]
     lines: list[list[str]] = []
     for name, rows in drawn.items():
         if rows:
-            lines.append([name, *(number(row["value"]) for row in rows)])
+            lines.append([labelled(units, name), *(number(row["value"]) for row in rows)])
             lines.append(["", *(f"{number(row['low'])} … {number(row['high'])}" for row in rows)])
     return table(heads, lines, range(1, len(heads)), wide=True)
 
@@ -120,7 +122,7 @@ def varied(cases: DataFrame, design: dict[str, Any]) -> Element:
     rows = []
     for name, given in design["parameters"].items():
         numbers = ", ".join(f"{key} {_short(value)}" for key, value in given.items() if key != "type")
-        rows.append([name, given["type"], numbers])
+        rows.append([label_of(cases, name), given["type"], numbers])
     return table(("parameter", "distribution", ""), rows)
 
 
@@ -147,6 +149,6 @@ def data(cases: DataFrame, found: dict[str, Any], about: dict[str, Any]) -> Iter
 
 def columns(cases: DataFrame, drawn: bool) -> Element:
     """What the columns of the table are."""
-    rows = [(name, "parameter") for name in parameters_of(cases)]
-    rows += [(name, "output") for name in outputs_of(cases)]
+    rows = [(label_of(cases, name), "parameter") for name in parameters_of(cases)]
+    rows += [(label_of(cases, name), "output") for name in outputs_of(cases)]
     return pairs([*rows, ("status", "ok or failed"), ("message", "why it failed, or a warning")])

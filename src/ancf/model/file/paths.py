@@ -5,7 +5,7 @@ from __future__ import annotations
 import copy
 import re
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 from ...errors import ModelError
@@ -97,11 +97,22 @@ def _is_number(value: Any) -> bool:
     return isinstance(value, int | float) and not isinstance(value, bool)
 
 
+def walk(tables: dict[str, Any], path: str) -> Iterator[tuple[Any, Any]]:
+    """What holds each step of a path, and that step, from the file on; errors as of :func:`changed`."""
+    for holder, step, _ in _walk(tables, path):
+        yield holder, step
+
+
 def _place(tables: dict[str, Any], path: str) -> tuple[Any, Any, str]:
     """What holds the last step of a path, and that step; the holder is a table or a list that has it."""
+    return [*_walk(tables, path)][-1]
+
+
+def _walk(tables: dict[str, Any], path: str) -> Iterator[tuple[Any, Any, str]]:
     steps = _steps(path)
     if len(steps) == 1 and steps[0] not in tables and steps[0] in _names(tables.get("parameters")):
-        return tables["parameters"], steps[0], "parameters"
+        yield tables["parameters"], steps[0], "parameters"
+        return
     here: Any = tables
     where = ""
     for k, step in enumerate(steps):
@@ -112,10 +123,9 @@ def _place(tables: dict[str, Any], path: str) -> tuple[Any, Any, str]:
             raise PathError(path, f'"{where}" is {shown(here)}, there is nothing inside')
         elif step not in here and not (last and _may_be_default(step, where, here)):
             raise _unknown(path, where, step, here)
-        if last:
-            return here, step, where
-        here, where = here[step], _joined(where, step)
-    raise AssertionError
+        yield here, step, where
+        if not last:
+            here, where = here[step], _joined(where, step)
 
 
 def _steps(path: str) -> list[str | int]:
