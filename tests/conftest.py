@@ -80,7 +80,11 @@ def pytest_xdist_make_scheduler(config, log):
 
 
 def pytest_addoption(parser):
-    parser.addoption("--slow", action="store_true", help="run the tests marked slow too")
+    parser.addoption("--slow", action="store_true", help="run all tests and all cases")
+    parser.addoption(
+        "--whole", action="store_true", help="run all cases of all families")
+
+    )
 
 
 def pytest_configure(config):
@@ -90,9 +94,13 @@ def pytest_configure(config):
 
 
 def pytest_collection_modifyitems(config, items):
+    from dealing import other_cases
+
     if config.getoption("--slow"):
         return
-    skip = pytest.mark.skip(reason="slow: run with --slow")
-    for item in items:
-        if "slow" in item.keywords:
-            item.add_marker(skip)
+    left_out = {item: "slow: run with --slow" for item in items if "slow" in item.keywords}
+    if not config.getoption("--whole"):
+        tried = [item for item in items if item not in left_out]
+        left_out |= dict.fromkeys(other_cases(tried), "one of a family: run with --whole")
+    for item, reason in left_out.items():
+        item.add_marker(pytest.mark.skip(reason=reason))

@@ -58,6 +58,7 @@ def test_all_rows_and_none_twice(tmp_path, way):
     assert on_cluster(tmp_path, way) == ["120 120 120", "[]", "True"]
 
 
+@pytest.mark.slow
 def test_case_that_ends_every_process(tmp_path):
     """It fails, and those that were in its task do not."""
     count, messages = on_cluster(tmp_path, "deadly")

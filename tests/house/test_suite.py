@@ -4,10 +4,11 @@ import ast
 import os
 from collections import defaultdict
 from functools import cache
+from types import SimpleNamespace
 
 import pytest
 
-from dealing import unit_of
+import dealing
 from pages import WITH_CODE, alone
 from places import TESTS
 
@@ -37,6 +38,39 @@ def test_no_timeout_is_shorter_than_five_minutes():
             assert least >= FIVE_MINUTES, f"{path.name}, line {node.lineno}"
 
 
+@pytest.mark.parametrize("tried", [1, 2, 3, 7])
+def test_some_cases_of_long_families_are_tried(monkeypatch, tried):
+    monkeypatch.setattr(dealing, "families", lambda: {"tests/test_it.py::test_a": tried})
+    before = set()
+    for count in range(1, 40):
+        names = [f"test_a[{k}-{k % 2}]" for k in range(count)]
+        cases = [SimpleNamespace(name=name, nodeid=f"tests/test_it.py::{name}") for name in names]
+        others = [
+            SimpleNamespace(name=name, nodeid=f"tests/test_it.py::{name}") for name in ("test_b[1]", "c")
+        ]
+        left_out = [case.name for case in dealing.other_cases([*cases, *others])]
+        now = set(names) - set(left_out)
+        assert len(now) == min(tried, count)
+        assert len(left_out) == count - len(now)
+        # another case takes the place of one at most
+        assert len(before - now) <= 1
+        before = now
+
+
+def test_families_of_which_some_cases_are_tried_are_there():
+    functions = defaultdict(set)
+    for path, tree in trees():
+        for node in tree.body:
+            inner = node.body if isinstance(node, ast.ClassDef) else [node]
+            prefix = f"{node.name}::" if isinstance(node, ast.ClassDef) else ""
+            found = {prefix + one.name for one in inner if isinstance(one, ast.FunctionDef)}
+            functions[f"tests/{path.relative_to(TESTS).as_posix()}"] |= found
+    known = {f"{file}::{name}" for file, names in functions.items() for name in names}
+    assert set(dealing.families()) <= known
+    assert list(dealing.families()) == sorted(dealing.families())
+    assert min(dealing.families().values()) >= 1
+
+
 def test_no_two_files_of_tests_have_one_name():
     """They are modules by their name alone, of which each worker imports one."""
     names = defaultdict(list)
@@ -60,10 +94,10 @@ def test_helpers_are_written_once():
 
 
 def test_pages_are_units_of_their_own():
-    units = {unit_of(f"tests/docs/test_docs.py::test_code[{alone(page).id}]") for page in WITH_CODE}
+    units = {dealing.unit_of(f"tests/docs/test_docs.py::test_code[{alone(page).id}]") for page in WITH_CODE}
     assert len(units) == len(WITH_CODE)
-    assert unit_of("tests/a/test_b.py::TestC::test_d[1.0-x]") == "tests/a/test_b.py"
-    assert unit_of("tests/a/test_b.py::test_d") == "tests/a/test_b.py"
+    assert dealing.unit_of("tests/a/test_b.py::TestC::test_d[1.0-x]") == "tests/a/test_b.py"
+    assert dealing.unit_of("tests/a/test_b.py::test_d") == "tests/a/test_b.py"
 
 
 @pytest.mark.parametrize("number", range(20))

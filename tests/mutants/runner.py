@@ -225,8 +225,9 @@ def _judge(mutant: Mutant, copies: Copies, copy: Path, failing: set[str]) -> Ver
 
 def _outcome(mutant: Mutant, copies: Copies, copy: Path, how: str) -> tuple[str, str]:
     """Outcome and what pytest said."""
-    slow = ["--slow"] if any(test.endswith("]") for test in mutant.tests) else []  # one case: it is to run
-    code, text = copies.run(list(mutant.tests), copy, how, "-x", *slow)
+    one_case = any(test.endswith("]") for test in mutant.tests)  # which is to run
+    form = "--slow" if one_case else "--whole"
+    code, text = copies.run(list(mutant.tests), copy, how, "-x", form)
     if code is None:
         return KILLED, "the tests hang"
     if code < 0:
