@@ -81,10 +81,7 @@ def pytest_xdist_make_scheduler(config, log):
 
 def pytest_addoption(parser):
     parser.addoption("--slow", action="store_true", help="run all tests and all cases")
-    parser.addoption(
-        "--whole", action="store_true", help="run all cases of all families")
-
-    )
+    parser.addoption("--whole", action="store_true", help="run all cases of all families")
 
 
 def pytest_configure(config):
