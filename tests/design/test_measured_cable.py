@@ -79,9 +79,8 @@ FITS = {
 }
 
 
-@pytest.mark.parametrize(
-    "case", [pytest.param(name, marks=pytest.mark.slow) if name == "two runs" else name for name in FITS]
-)
+@pytest.mark.slow
+@pytest.mark.parametrize("case", FITS)
 def test_finds_what_made_the_runs(cable, truth, path, case):
     """Stiffness, drag, bends and offsets together, from 2 mm of noise; the run that was not fitted too."""
     count, wanted = FITS[case]
