@@ -66,6 +66,31 @@ class TestCapstan:
         found, wanted, _ = self.ratio(mu, 2.0, pitch=0.05, per_turn=64, EA=1e5)
         assert found == pytest.approx(wanted, rel=2e-3)
 
+    @pytest.mark.parametrize(
+        ("EA", "elements"), [(1e6, 38), *((EA, n) for EA in (1e6, 1e7) for n in (68, 75, 97, 135))]
+    )
+    def test_many_turns_whose_held_end_gives(self, EA, elements):
+        """By more than a mesh departs from the path: held still friction acts either way at the slack end."""
+        radius, pitch, angle = 0.21, 0.026, np.linspace(0.0, 5 * np.pi, 190)
+        helix = np.stack(
+            [radius * np.cos(angle), pitch * angle / (2 * np.pi), radius * np.sin(angle)], axis=1
+        )
+        on, off = (
+            np.array([-radius * np.sin(x), pitch / (2 * np.pi), radius * np.cos(x)]) for x in angle[[0, -1]]
+        )
+        on, off = on / np.linalg.norm(on), off / np.linalg.norm(off)
+        ends = np.linspace(0.15, 0.0, 6)[:-1, None]
+        path = np.vstack([helix[0] - ends * on, helix, helix[-1] + ends[::-1] * off])
+        model = ancf.Model()
+        section = ancf.Section(EA=EA, EI=1e-3, rhoA=0.3, diameter=0.02)
+        rope = model.add_beam("rope", path=path, elements=elements, section=section)
+        drum = model.add_surface("drum", ancf.Cylinder(radius=0.2, axis=(0, 1, 0)))
+        model.add_contact(rope, drum, stiffness=1e8, friction=0.3)
+        held = model.pin(rope.start, displacement=1e-4 * on)
+        model.add_force(rope.end, 1000.0 * off)
+        ratio = 1000.0 / np.linalg.norm(ancf.equilibrium(model).reaction(held))
+        assert ratio == pytest.approx(np.exp(0.3 * 5 * np.pi), rel=3e-3)
+
     def test_converges_with_mesh_and_stiffness(self):
         stiffnesses = [
             abs(found / wanted - 1.0)
