@@ -1,7 +1,7 @@
 """Which cases of long families are tried, and how tests are dealt out to the workers, from their names alone.
 
-Its groups by a marker put the group into the name of a test, which pytest from 9.2 on does not give away any
-more: each test then went to whichever worker was free, and every worker made every fixture.
+Groups of pytest-xdist by a marker put the group into the name of a test, which pytest from 9.2 on does not
+give away any more: each test then went to whichever worker was free, and every worker made every fixture.
 """
 
 import zlib

@@ -1,9 +1,7 @@
 """One page of each kind that the package writes, small: reports, comparisons, verdicts, the reproduction."""
 
 import warnings
-from functools import cache
 from pathlib import Path
-from tempfile import TemporaryDirectory
 
 import numpy as np
 
@@ -146,13 +144,6 @@ PAGES = {
 }
 
 
-#: Removed when the tests end.
-_FOLDERS = []
-
-
-@cache
-def written(name):
-    """The page of that name, made once: it is only looked at."""
-    folder = TemporaryDirectory(prefix="ancf-")
-    _FOLDERS.append(folder)
-    return Path(PAGES[name](Path(folder.name)))
+def written(name, folder):
+    """The page of that name."""
+    return Path(PAGES[name](folder))

@@ -1,5 +1,7 @@
 """Every kind of page that the package writes, in a browser: for everybody, narrow, in the dark, on paper."""
 
+from functools import cache
+
 import numpy as np
 import pytest
 
@@ -14,16 +16,22 @@ SLOW = ("train", "indices", "long_names", "calibration")
 GROUND = 23
 
 
+@pytest.fixture(scope="module")
+def pages(tmp_path_factory):
+    """The page of a name, made once: it is only looked at."""
+    return cache(lambda name: html_pages.written(name, tmp_path_factory.mktemp(name)))
+
+
 @pytest.mark.parametrize(
     "name",
     [pytest.param(name, marks=pytest.mark.slow) if name in SLOW else name for name in html_pages.PAGES],
 )
-def test_everybody_can_read_it(browser, name):
+def test_everybody_can_read_it(browser, pages, name):
     """No finding of axe, no error, nothing asked of a network, nothing beside the screen.
 
     The ground is the screen's, that of pictures too; paper is white.
     """
-    page = html_pages.written(name)
+    page = pages(name)
     tab = browser.new_page(viewport={"width": NARROW[0], "height": NARROW[1]}, color_scheme="light")
     tab.set_default_timeout(browsing.PATIENCE)
     wrong, asked = browsing.listen(tab)
@@ -48,9 +56,9 @@ def test_everybody_can_read_it(browser, name):
 
 @pytest.mark.parametrize("name", ["study", "long_names"])
 @pytest.mark.parametrize("width", some([1200, 1600]))
-def test_tables_take_the_room_that_there_is(browser, name, width):
+def test_tables_take_the_room_that_there_is(browser, pages, name, width):
     """None is cut while the window is wide enough for it."""
-    page = html_pages.written(name)
+    page = pages(name)
     tab = browser.new_page(viewport={"width": width, "height": 900})
     tab.goto(page.as_uri())
     found = tab.evaluate(
@@ -65,9 +73,9 @@ def test_tables_take_the_room_that_there_is(browser, name, width):
 
 @pytest.mark.parametrize("name", ["study", "long_names", "comparison", "calibration"])
 @pytest.mark.parametrize("width", some([400, 320, 600]))
-def test_narrow_screens_scroll_within_tables_and_figures(browser, name, width):
+def test_narrow_screens_scroll_within_tables_and_figures(browser, pages, name, width):
     """Names of rows stay in sight while the columns pass, letters of figures stay as large as text."""
-    page = html_pages.written(name)
+    page = pages(name)
     tab = browser.new_page(viewport={"width": width, "height": 800})
     tab.goto(page.as_uri())
     assert tab.evaluate("document.documentElement.scrollWidth") <= width

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -81,17 +81,19 @@ def read_file(path: str | Path, values: Mapping[str, Any] | None = None) -> Line
     return parse_track(other_values(data, values or {}), str(path))
 
 
+#: Tables of the states of a line, which need not stand in its file.
+STATES = ("conditions", "dropper_errors")
+
+
 def other_values(tables: dict[str, Any], values: Mapping[str, Any]) -> dict[str, Any]:
     """Tables of a line file with other values at some paths; those of its states need not stand there."""
-    for key, empty in with_states({}).items():
-        if any(path.startswith(f"{key}.") for path in values):
-            tables = {key: empty} | tables
-    return changed(tables, values)
+    named = [key for key in STATES if any(path.startswith(f"{key}.") for path in values)]
+    return changed(with_states(tables, named), values)
 
 
-def with_states(tables: dict[str, Any]) -> dict[str, Any]:
+def with_states(tables: dict[str, Any], names: Iterable[str] = STATES) -> dict[str, Any]:
     """Tables of a line file with those of its states, empty where it has none."""
-    return {"conditions": {}, "dropper_errors": {}} | tables
+    return {name: {} for name in names} | tables
 
 
 def parse_track(data: dict[str, Any], source: str = "line") -> Line | Route:

@@ -75,6 +75,12 @@ SETTINGS = (
     *("step", "mesh", "reduce", "evaluated"),
 )
 
+OF_SETTINGS: dict[str, str | None] = {
+    **dict.fromkeys(RUN + key for key in SETTINGS),
+    **dict.fromkeys((RUN + key for key in ("spacing", "start", "until")), "m"),
+    **{RUN + "speed": "km/h", RUN + "step": "s", RUN + "contact_stiffness": "N/m"},
+}
+
 
 @dataclass(frozen=True)
 class LineCase:
@@ -122,7 +128,7 @@ class LineCase:
         from ..catenary.entries import LineEntry
         from ..catenary.file import with_states
 
-        return FileUnits(with_states(self.tables), LineEntry.model_json_schema(), UNITS)
+        return FileUnits(with_states(self.tables), LineEntry.model_json_schema(), UNITS, OF_SETTINGS)
 
     def read(self, values: Mapping[str, Any]) -> tuple[Line | Route, dict[str, Any]]:
         """The line with these values, by name, and the settings of its run."""

@@ -126,8 +126,6 @@ def study(
     SolveError
         The cluster has gone; what has ended is kept.
     """
-    from .writing import write_all
-
     frame = pandas()
     checks.function(function, "study.function", "the columns")
     checks.progress(progress, "study.progress")
@@ -158,17 +156,30 @@ def study(
         table = table_of(samples, rows, known)
         table.attrs["units"] = _checked_units(units or {}, table)
         if place is not None:
-            seconds = _seconds(known, wanted)
             about = {
                 "title": title or _title(function),
                 "function": identity(function),
-                "seconds": seconds,
+                "seconds": _seconds(known, wanted),
                 "read": read,
                 "units": table.attrs["units"],
             }
-            stamp = hashlib.sha256(repr((about, [*map(case_key, rows)], samples.attrs)).encode()).hexdigest()
-            write_all(place, table, {**about, "stamp": stamp, "files": files or {}}, report)
+            _write(place, table, rows, about, files or {}, report)
     return table
+
+
+def _write(
+    place: Path,
+    table: DataFrame,
+    rows: list[dict[str, Any]],
+    about: dict[str, Any],
+    files: Mapping[str, str],
+    report: bool,
+) -> None:
+    """Write the files of a study whose cases have ended, if they are not there already."""
+    from .writing import write_all
+
+    stamp = hashlib.sha256(repr((about, [*map(case_key, rows)], table.attrs)).encode()).hexdigest()
+    write_all(place, table, {**about, "stamp": stamp, "files": files}, report)
 
 
 def rows_of(samples: DataFrame) -> list[dict[str, Any]]:

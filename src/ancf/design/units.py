@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from ..model.file.paths import walk
@@ -17,11 +17,8 @@ ALIKE = {*REDUCTIONS, LENGTH, "abs"} - {"integral"}
 LAST = re.compile(r"\[([^\[\]]+)\]\.?$")
 #: What a description calls the unit of a plain number.
 NONE = "-"
-#: Of the settings of a run along a line, which stand in no schema.
-OF_RUN = {
-    **{"run.speed": "km/h", "run.spacing": "m", "run.start": "m", "run.until": "m", "run.step": "s"},
-    "run.contact_stiffness": "N/m",
-}
+#: Of a number in a formula, such as the 2 of ``max(x) - 2``, whose unit is that of what stands beside it.
+_NUMBER = "number"
 
 
 def unit_of_formula(text: str, words: Mapping[str, str | None]) -> str | None:
@@ -36,10 +33,6 @@ def unit_of_formula(text: str, words: Mapping[str, str | None]) -> str | None:
     """
     found = _unit(ast.parse(" ".join(text.split()), mode="eval").body, words)
     return None if found is _NUMBER else found
-
-
-#: Of a number in a formula, such as the 2 of ``max(x) - 2``, whose unit is that of what stands beside it.
-_NUMBER = "number"
 
 
 def _unit(node: ast.AST, words: Mapping[str, str | None]) -> str | None:
@@ -96,11 +89,14 @@ class FileUnits:
         JSON Schema of such files; descriptions end with a unit in brackets.
     words : mapping
         Units of the names and quantities of formulas.
+    beside : mapping
+        Units of what stands in no schema, by its path.
     """
 
     tables: dict[str, Any]
     schema: Mapping[str, Any]
     words: Mapping[str, str | None]
+    beside: Mapping[str, str | None] = field(default_factory=dict)
 
     def of(self, formula: str) -> str | None:
         """Unit of what a formula gives, see :func:`unit_of_formula`."""
@@ -108,10 +104,10 @@ class FileUnits:
 
     def at(self, path: str) -> str | None:
         """Unit of the value at a path, "" of a plain number, None where the schema does not tell."""
-        if path.startswith("run."):
-            return OF_RUN.get(path)
+        if path in self.beside:
+            return self.beside[path]
         here, unit = [self.schema], None
-        for holder, step in walk(self.tables, path):
+        for holder, step, _ in walk(self.tables, path):
             plain = [one for given in here for one in _choices(given, self.schema) if _fits(one, holder)]
             if isinstance(holder, dict):
                 here = [one for given in plain for one in _of_key(given, step)]

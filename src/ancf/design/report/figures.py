@@ -196,7 +196,7 @@ def _morris(figure: Figure, table: DataFrame, found: dict[str, Any], name: str) 
         look = style.look(k)
         point = {"color": look.color, "marker": look.marker, "ls": "", "label": key, "capsize": 2}
         axes.errorbar(row["mu_star"], row["sigma"], xerr=row["mu_star_conf"], **point)
-    axes.set_xlabel("mean size of the effects µ*")
+    axes.set_xlabel(f"mean size of the effects µ* on {label_of(table, name)}")
     axes.set_ylabel("their deviation σ")
     axes.set_xlim(left=0.0)
     axes.set_ylim(bottom=0.0)

@@ -97,18 +97,13 @@ def _is_number(value: Any) -> bool:
     return isinstance(value, int | float) and not isinstance(value, bool)
 
 
-def walk(tables: dict[str, Any], path: str) -> Iterator[tuple[Any, Any]]:
-    """What holds each step of a path, and that step, from the file on; errors as of :func:`changed`."""
-    for holder, step, _ in _walk(tables, path):
-        yield holder, step
-
-
 def _place(tables: dict[str, Any], path: str) -> tuple[Any, Any, str]:
     """What holds the last step of a path, and that step; the holder is a table or a list that has it."""
-    return [*_walk(tables, path)][-1]
+    return [*walk(tables, path)][-1]
 
 
-def _walk(tables: dict[str, Any], path: str) -> Iterator[tuple[Any, Any, str]]:
+def walk(tables: dict[str, Any], path: str) -> Iterator[tuple[Any, Any, str]]:
+    """What holds each step of a path, that step and the path of the holder; errors as of :func:`changed`."""
     steps = _steps(path)
     if len(steps) == 1 and steps[0] not in tables and steps[0] in _names(tables.get("parameters")):
         yield tables["parameters"], steps[0], "parameters"
