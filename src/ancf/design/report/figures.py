@@ -197,7 +197,7 @@ def _morris(figure: Figure, table: DataFrame, found: dict[str, Any], name: str) 
         point = {"color": look.color, "marker": look.marker, "ls": "", "label": key, "capsize": 2}
         axes.errorbar(row["mu_star"], row["sigma"], xerr=row["mu_star_conf"], **point)
     axes.set_xlabel(f"mean size of the effects µ* on {label_of(table, name)}")
-    axes.set_ylabel("their deviation σ")
+    axes.set_ylabel(f"their deviation σ{label_of(table, name).removeprefix(name)}")
     axes.set_xlim(left=0.0)
     axes.set_ylim(bottom=0.0)
     style.legend_above(figure, axes)
