@@ -117,7 +117,7 @@ class TestDesigns:
         assert np.min(rows) >= 0.0
         assert np.max(rows) <= 1.0
         for k in range(dimension):  # all levels and both directions are walked
-            assert len(np.unique(np.round(3 * rows[..., k]))) == 4
+            assert np.array_equal(np.unique(rows[..., k]), np.arange(4) / 3)  # no two alike
             assert 0 < np.mean(steps[..., k][np.abs(steps[..., k]) > 0.1] > 0) < 1
 
     def test_grid_has_all_combinations(self):

@@ -93,6 +93,15 @@ class TestMorris:
             assert row["mu_star"] == pytest.approx(4.0 * abs(slope), abs=1e-12)
             assert row["sigma"] == pytest.approx(0.0, abs=1e-12)
 
+    @pytest.mark.parametrize("kind", [ancf.Uniform(-1.1, 3.7), ancf.Triangular(0.1, 0.3, 0.7)])
+    @pytest.mark.parametrize("seed", [0, 4])
+    def test_each_level_has_one_mean(self, kind, seed):
+        kinds = {"a": kind, "b": ancf.Uniform(0.0, 0.1)}
+        table = table_of(ancf.sample(kinds, method="morris", count=30, seed=seed), lambda a, b: {"y": a + b})
+        for row in said(table)["effects"]["y"].values():
+            assert len(row["bins"]) == 4
+            assert sum(one["count"] for one in row["bins"]) == 90
+
     def test_products_deviate(self):
         kinds = {"a": ancf.Uniform(0.0, 1.0), "b": ancf.Uniform(0.0, 1.0)}
         table = table_of(ancf.sample(kinds, method="morris", count=200, seed=1), lambda a, b: {"y": a * b})

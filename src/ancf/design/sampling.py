@@ -136,18 +136,20 @@ def _saltelli(points: FloatArray) -> FloatArray:
 
 
 def _trajectories(count: int, dimension: int, seed: int) -> FloatArray:
-    """Morris' walks over a grid of levels; each has a stream of its own, so that more of them change none."""
-    step = LEVELS / (2 * (LEVELS - 1))
-    rows = np.empty((count, dimension + 1, dimension))
+    """Morris' walks over a grid of levels; each has a stream of its own, so that more of them change none.
+
+    Levels are counted, so that those of all walks are the same numbers.
+    """
+    rows = np.empty((count, dimension + 1, dimension), dtype=np.int64)
     for k in range(count):
         draw = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(k,)))
-        lower = draw.integers(0, LEVELS // 2, dimension) / (LEVELS - 1)
+        lower = draw.integers(0, LEVELS // 2, dimension)
         up = draw.random(dimension) < 0.5
-        rows[k, 0] = np.where(up, lower, lower + step)
+        rows[k, 0] = np.where(up, lower, lower + LEVELS // 2)
         for i, place in enumerate(draw.permutation(dimension)):
             rows[k, i + 1] = rows[k, i]
-            rows[k, i + 1, place] += step if up[place] else -step
-    return np.clip(rows.reshape(-1, dimension), 0.0, 1.0)
+            rows[k, i + 1, place] += LEVELS // 2 if up[place] else -(LEVELS // 2)
+    return rows.reshape(-1, dimension) / (LEVELS - 1)
 
 
 def _values(kind: Distribution, u: FloatArray, method: str) -> Any:
