@@ -1,7 +1,7 @@
 """Kernels that turn corrections with the nodes, for tests of them."""
 
 from ancf.compiled import kernel
-from ancf.solvers.corotation import remember, turn, turn_back, turn_forth
+from ancf.solvers.step.corotation import remember, turn, turn_back, turn_forth
 
 
 @kernel

@@ -29,11 +29,11 @@ from .results.out_of_balance import explain_unstable, notes_of_balance, of_bends
 from .results.result import Result
 from .results.room import check_room
 from .results.state import State
-from .solvers import statics
-from .solvers.damped_modal import damped_modes_about
-from .solvers.modal import natural_modes
+from .solvers.explicit.stability import stable_limit
+from .solvers.modes.damped_modal import damped_modes_about
+from .solvers.modes.modal import natural_modes
 from .solvers.record import Progress
-from .solvers.stability import stable_limit
+from .solvers.statics import equilibrium as statics
 from .system.left_out import come_apart
 from .system.redundancy import independent
 from .system.system import System

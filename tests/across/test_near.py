@@ -7,7 +7,7 @@ import pytest
 
 import ancf
 from ancf.compiled import kernel
-from ancf.solvers.near import take, unsettled
+from ancf.solvers.step.near import take, unsettled
 from ancf.solvers.stepping import Run
 from ancf.system.core import apply_supports, residual, to_local
 from ancf.system.near import SEGMENT, clear_beyond, residual_near

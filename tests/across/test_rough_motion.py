@@ -5,7 +5,7 @@ import pytest
 from scipy.interpolate import CubicSpline
 
 import ancf
-from ancf.solvers.rescue import Rescue, groups_of
+from ancf.solvers.step.rescue import Rescue, groups_of
 from ancf.solvers.stepping import Run
 from ancf.system.core import apply_supports, follow_supports, residual
 from ancf.system.system import System

@@ -8,8 +8,8 @@ from ancf import catenary
 from ancf.catenary import sleeping
 from ancf.catenary.rest import assemble, form
 from ancf.catenary.stitch import StitchWire
-from ancf.solvers import far_parts
-from ancf.solvers.far_parts import Matrices, cables_of, in_order, parts_of, reduced, shapes_of
+from ancf.solvers.sleeping import parts as far_parts
+from ancf.solvers.sleeping.parts import Matrices, cables_of, in_order, parts_of, reduced, shapes_of
 from ancf.system.system import System
 from overhead_lines import COARSE, STEP, collector, droppers, short_line
 

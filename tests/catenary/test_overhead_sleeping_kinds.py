@@ -15,7 +15,7 @@ from ancf.catenary.auxiliary import Auxiliary
 from ancf.catenary.rest import assemble, form
 from ancf.catenary.span import DropperRule
 from ancf.catenary.stitch import StitchWire
-from ancf.solvers.far_parts import Matrices, cables_of, parts_of
+from ancf.solvers.sleeping.parts import Matrices, cables_of, parts_of
 from ancf.system.system import System
 from overhead_lines import COARSE, STEP, collector, short_line
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import ancf
-from ancf.solvers.locking import stiffest
+from ancf.solvers.statics.locking import stiffest
 
 
 def ring(elements, stiff, radius=1.0, flat=True):

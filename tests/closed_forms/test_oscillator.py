@@ -210,7 +210,7 @@ def test_pendulum_on_a_hinge():
 
 def test_limit_of_a_damped_oscillator():
     """The step at which the map of the explicit method, found here column by column, has an eigenvalue -1."""
-    from ancf.solvers.stability import limit
+    from ancf.solvers.explicit.stability import limit
 
     for omega, d in ((3.0, 0.0), (3.0, 0.4), (3.0, 2.0), (0.0, 2.0)):
         h = limit(omega, d)

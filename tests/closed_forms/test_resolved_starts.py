@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 import ancf
-from ancf.solvers.scheme import Scheme
-from ancf.solvers.unresolved import resolve
+from ancf.solvers.step.scheme import Scheme
+from ancf.solvers.step.unresolved import resolve
 
 G = 9.81
 

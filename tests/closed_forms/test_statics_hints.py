@@ -5,7 +5,8 @@ import pytest
 
 import ancf
 from ancf.errors import SolveError
-from ancf.solvers import static_path, statics
+from ancf.solvers.statics import equilibrium as statics
+from ancf.solvers.statics import path as static_path
 
 SLIPS = "where friction slips for good there is none: simulate"
 

@@ -7,9 +7,9 @@ import ancf
 from ancf.compiled import kernel
 from ancf.linalg.eight_twisted import allocate_twisted
 from ancf.sensitivity import follow
-from ancf.solvers.ahead import ahead_of
-from ancf.solvers.edge import edge_for
-from ancf.solvers.lacking import MOST_ROWS, columns_for, made_orthonormal
+from ancf.solvers.derivatives.ahead import ahead_of
+from ancf.solvers.derivatives.edge import edge_for
+from ancf.solvers.derivatives.lacking import MOST_ROWS, columns_for, made_orthonormal
 from helpers import some
 
 METHODS = {

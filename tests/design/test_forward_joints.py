@@ -7,7 +7,7 @@ from jointed import NEWTON, arms, machine, methods
 import ancf
 from ancf.model.vary import value_of
 from ancf.sensitivity import follow
-from ancf.solvers.edge import edge_for
+from ancf.solvers.derivatives.edge import edge_for
 from ancf.system.system import System
 from slopes import remainder_slopes
 

@@ -6,7 +6,7 @@ from linear_cases import body
 
 import ancf
 from ancf.errors import ModelError
-from ancf.solvers.linear import all_modes
+from ancf.solvers.modes.linear import all_modes
 from helpers import square
 
 

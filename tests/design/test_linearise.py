@@ -20,7 +20,7 @@ from scipy.signal import lsim
 
 import ancf
 from ancf.errors import ModelError
-from ancf.solvers.linear_moved import slope
+from ancf.solvers.modes.linear_moved import slope
 from helpers import EXACT
 
 

@@ -8,7 +8,7 @@ from ancf.sensitivity.family import Family
 from ancf.sensitivity.nearby import Nearby
 from ancf.sensitivity.parameters import parameters_of
 from ancf.sensitivity.weighed import Weighed
-from ancf.solvers.sensitivity import Way
+from ancf.solvers.derivatives.sensitivity import Way
 from ancf.system.system import System
 
 DAMPED = {"axial_damping": 2.0, "bending_damping": 0.1, "damping": 0.2, "slope_damping": 0.05}

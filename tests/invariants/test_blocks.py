@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 import ancf
-from ancf.solvers import radau_run, stepping
+from ancf.solvers import stepping
+from ancf.solvers.radau import run as radau_run
 from motions import ball, pendulum, rod_on_a_hinge, straight
 
 #: What BLOCK_SECONDS is on the machine: 0 makes each step a block, 1e9 none but what the looks bound.
@@ -137,8 +138,8 @@ def test_some_of_them_make_energy(monkeypatch):
 
 def test_explicit_estimates(monkeypatch):
     """The stable step is estimated anew after numbers of steps that the clock does not change."""
-    monkeypatch.setattr("ancf.solvers.explicit_run.RARE_STEPS", 0)
-    monkeypatch.setattr("ancf.solvers.explicit_run.RARE_WIDE", 0)
+    monkeypatch.setattr("ancf.solvers.explicit.run.RARE_STEPS", 0)
+    monkeypatch.setattr("ancf.solvers.explicit.run.RARE_WIDE", 0)
     model, beam = straight(4, "paper", EA=100.0, EI=1e-3, damping=1.0)
     model.pin(beam.start)
     model.add_force(beam.end, ["1000*ramp(t, 0, 0.2)", "0", "0"])

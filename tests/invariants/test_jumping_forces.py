@@ -60,6 +60,6 @@ def test_a_correction_that_leaves_more_than_none(monkeypatch):
         asked.append(len(r))
         return np.full(len(r), 0.3), 0
 
-    monkeypatch.setattr("ancf.solvers.static_iteration.gmres", astray)
+    monkeypatch.setattr("ancf.solvers.statics.iteration.gmres", astray)
     assert pressed() == pytest.approx(wanted, abs=1e-8)
     assert asked

@@ -10,8 +10,8 @@ import ancf
 from ancf.batches import Batches, add_forces
 from ancf.compiled import kernel
 from ancf.elements.cable import CableBatch
-from ancf.solvers.balance import balance
 from ancf.solvers.newmark import advance
+from ancf.solvers.step.balance import balance
 from ancf.system.core import assemble, find_inverted, inertia, residual
 from ancf.system.system import System
 from compiled_kernels import total_strain_energy

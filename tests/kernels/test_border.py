@@ -16,7 +16,7 @@ from ancf.linalg.border import (
 )
 from ancf.linalg.ordering import fill_pattern
 from ancf.linalg.sparse import to_sparse
-from ancf.solvers.low_rank import correct, room_for_patches
+from ancf.solvers.step.low_rank import correct, room_for_patches
 from ancf.system.core import assemble, factorise_head, restrict, solve_kept, solve_sparse
 from ancf.system.matrix import Places
 from ancf.system.system import System

@@ -8,9 +8,9 @@ from ancf.batches import Batches
 from ancf.compiled import add_changes, does_something, traits
 from ancf.elements.cable_columns import DAMPED, INV_L, LENGTH
 from ancf.sensitivity.nearby import changes_of
-from ancf.solvers.friction import no_friction
-from ancf.solvers.pushes import Uses, add_pushes
-from ancf.solvers.sensitivity import Way
+from ancf.solvers.derivatives.friction import no_friction
+from ancf.solvers.derivatives.pushes import Uses, add_pushes
+from ancf.solvers.derivatives.sensitivity import Way
 from ancf.system.core import residual
 from ancf.system.system import System
 from strained import SECTIONS, SOLIDLY, cable, of_solids, solid, states

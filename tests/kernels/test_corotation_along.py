@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import ancf
-from ancf.solvers import corotation, corotation_along
+from ancf.solvers.step import corotation, corotation_along
 from ancf.system.system import System
 from helpers import rotation
 from turned_frames import back, forth, turned

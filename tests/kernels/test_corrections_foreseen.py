@@ -5,8 +5,8 @@ import pytest
 
 from ancf.compiled import kernel
 from ancf.simd import LANES
-from ancf.solvers.abreast_room import room_for
-from ancf.solvers.foreseen import foresee
+from ancf.solvers.derivatives.abreast_room import room_for
+from ancf.solvers.derivatives.foreseen import foresee
 
 SIZE = 12
 RNG = np.random.default_rng(7)

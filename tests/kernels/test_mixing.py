@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from ancf.compiled import kernel
-from ancf.solvers.mixing import OF_X, ROOM, mixed
+from ancf.solvers.derivatives.mixing import OF_X, ROOM, mixed
 
 
 @kernel

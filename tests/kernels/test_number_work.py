@@ -7,10 +7,10 @@ from ancf.batches import Batches
 from ancf.compiled import add_number_work, does_something, traits
 from ancf.elements.cable_columns import VISCOUS
 from ancf.elements.solid_force import LENGTH, M_YY, M_YZ, M_ZZ
-from ancf.solvers.friction import no_friction
-from ancf.solvers.pushes import Uses, weigh_pushes
+from ancf.solvers.derivatives.friction import no_friction
+from ancf.solvers.derivatives.pushes import Uses, weigh_pushes
+from ancf.solvers.derivatives.sensitivity import Way
 from ancf.solvers.rare import knowing
-from ancf.solvers.sensitivity import Way
 from ancf.system.core import residual
 from ancf.system.system import System
 from sloped import SPEEDS, WAVES, afloat, in_waves

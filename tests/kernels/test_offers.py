@@ -8,8 +8,8 @@ import pytest
 
 import ancf
 from ancf.elements.registry import ELEMENTS, offered, offers
-from ancf.solvers.mixed import Mixed
-from ancf.solvers.slack import Slack
+from ancf.solvers.statics.mixed import Mixed
+from ancf.solvers.statics.slack import Slack
 from ancf.system.system import System
 from helpers import SOLIDS, square
 

@@ -5,7 +5,7 @@ import pytest
 
 import ancf
 from ancf.sensitivity.base import matrices_of
-from ancf.solvers.directions import products_along
+from ancf.solvers.derivatives.directions import products_along
 from ancf.system.core import residual
 from ancf.system.system import System
 

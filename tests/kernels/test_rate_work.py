@@ -7,7 +7,7 @@ import ancf
 from ancf.batches import Batches
 from ancf.compiled import kernel
 from ancf.sensitivity.base import matrices_of
-from ancf.solvers.directions import products_along
+from ancf.solvers.derivatives.directions import products_along
 from ancf.solvers.rare import add_rate_works, add_tangent_works
 from ancf.system.core import residual
 from ancf.system.system import System

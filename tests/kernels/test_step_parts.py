@@ -14,18 +14,18 @@ from ancf.elements.solid_shapes import shape
 from ancf.elements.solid_strains import quadratic_part
 from ancf.linalg.border import room_for_border
 from ancf.simd import LANES
-from ancf.solvers import corotation as turning
 from ancf.solvers.account import Account
-from ancf.solvers.carry import carry
-from ancf.solvers.corotation import turn_rows
-from ancf.solvers.corrections import largest, shift, update
-from ancf.solvers.low_rank import eliminate
-from ancf.solvers.memory import FIRST_LIMIT, H_FACTOR, H_PREV, LIMIT, WORST, aligned, allocate
 from ancf.solvers.newmark import worst_unknown
-from ancf.solvers.renewal import count, renewed
-from ancf.solvers.scheme import Scheme, finish, predict_rows, restore
 from ancf.solvers.status import FAR
-from ancf.solvers.step_checks import check_way
+from ancf.solvers.step import corotation as turning
+from ancf.solvers.step.carry import carry
+from ancf.solvers.step.checks import check_way
+from ancf.solvers.step.corotation import turn_rows
+from ancf.solvers.step.corrections import largest, shift, update
+from ancf.solvers.step.low_rank import eliminate
+from ancf.solvers.step.memory import FIRST_LIMIT, H_FACTOR, H_PREV, LIMIT, WORST, aligned, allocate
+from ancf.solvers.step.renewal import count, renewed
+from ancf.solvers.step.scheme import Scheme, finish, predict_rows, restore
 from ancf.system.core import inertia
 from ancf.system.inputs import differences
 from ancf.system.system import System

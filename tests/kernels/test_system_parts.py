@@ -14,8 +14,8 @@ from ancf.elements.slopes import mean_strain, slope, vectors_of
 from ancf.linalg.sparse import to_sparse
 from ancf.model.functions import TimeFunction
 from ancf.solvers import sampling
-from ancf.solvers.free_spin import Spin, is_neutral
-from ancf.solvers.pressed import least_stretch
+from ancf.solvers.statics.free_spin import Spin, is_neutral
+from ancf.solvers.statics.pressed import least_stretch
 from ancf.system.contacts import touching
 from ancf.system.core import apply_load, assemble, restrict
 from ancf.system.energy import energies

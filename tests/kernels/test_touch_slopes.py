@@ -7,7 +7,7 @@ from test_changes import forces, found_by_kernel
 import ancf
 from ancf.compiled import traits
 from ancf.contact.strand import DAMPING, RADIUS, STIFFNESS
-from ancf.solvers.sensitivity import Way
+from ancf.solvers.derivatives.sensitivity import Way
 from ancf.system.system import System
 from sloped import check_along
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import ancf
-from ancf.solvers.pushes import weigh_loads
+from ancf.solvers.derivatives.pushes import weigh_loads
 from ancf.system.core import apply_load
 from ancf.system.system import System
 

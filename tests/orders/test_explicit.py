@@ -9,7 +9,7 @@ import ancf
 from ancf.errors import ModelError, SolveError
 from ancf.model.integrators import integrator_of
 from ancf.paper import cantilever
-from ancf.solvers.stability import lanczos, limit
+from ancf.solvers.explicit.stability import lanczos, limit
 from ancf.system.system import System
 from helpers import rate
 from motions import SLOW, driven_clamp, falling_cantilever, pendulum, step_rates, straight
@@ -199,8 +199,8 @@ class TestTooLarge:
 
     def test_stops_when_the_cable_gets_stiffer(self, monkeypatch):
         """A force that stretches a cable to twice its length; the paper's strain stiffens it."""
-        monkeypatch.setattr("ancf.solvers.explicit_run.RARE_STEPS", 0)
-        monkeypatch.setattr("ancf.solvers.explicit_run.RARE_WIDE", 0)
+        monkeypatch.setattr("ancf.solvers.explicit.run.RARE_STEPS", 0)
+        monkeypatch.setattr("ancf.solvers.explicit.run.RARE_WIDE", 0)
         model, beam = straight(4, "paper", EA=100.0, EI=1e-3, damping=1.0)
         model.pin(beam.start)
         model.add_force(beam.end, ["1000*ramp(t, 0, 0.2)", "0", "0"])
@@ -214,8 +214,8 @@ class TestTooLarge:
 
     def test_estimate_follows_the_run(self, monkeypatch):
         """With the step of the stretched cable the same run goes through."""
-        monkeypatch.setattr("ancf.solvers.explicit_run.RARE_STEPS", 0)
-        monkeypatch.setattr("ancf.solvers.explicit_run.RARE_WIDE", 0)
+        monkeypatch.setattr("ancf.solvers.explicit.run.RARE_STEPS", 0)
+        monkeypatch.setattr("ancf.solvers.explicit.run.RARE_WIDE", 0)
         model, beam = straight(4, "paper", EA=100.0, EI=1e-3, damping=1.0)
         model.pin(beam.start)
         model.add_force(beam.end, ["1000*ramp(t, 0, 0.2)", "0", "0"])

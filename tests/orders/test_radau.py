@@ -15,8 +15,8 @@ import ancf
 from ancf.errors import Interrupted, ModelError, SolveError
 from ancf.model.integrators import integrator_of
 from ancf.paper import cantilever
-from ancf.solvers.collocation import collocation
-from ancf.solvers.radau import OK, Matrices, Stepper
+from ancf.solvers.radau.collocation import collocation
+from ancf.solvers.radau.method import OK, Matrices, Stepper
 from helpers import rate
 from motions import SLOW, driven_clamp, falling_cantilever, pendulum, step_rates, straight
 

@@ -13,8 +13,9 @@ from ancf import catenary
 from ancf.preparation import compiled, prepared
 from ancf.results import checkpoints
 from ancf.results.store import MemoryStore
-from ancf.solvers import radau_run, stepping
+from ancf.solvers import stepping
 from ancf.solvers.checkpoint import Watched
+from ancf.solvers.radau import run as radau_run
 from ancf.system.system import System
 from motions import pendulum
 from overhead_lines import COARSE, STEP, collector, short_line

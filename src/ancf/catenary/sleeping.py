@@ -19,8 +19,8 @@ from ..model import checks
 from ..model.points import Point
 from ..preparation import Prepared, carried_out, prepared
 from ..results.result import Result
-from ..solvers.far_arrays import FarPlan
-from ..solvers.far_spans import FarSpans
+from ..solvers.sleeping.arrays import FarPlan
+from ..solvers.sleeping.spans import FarSpans
 from ..system.nodes import node_of
 from ..system.system import System
 from .assemble import Assembled

@@ -26,7 +26,7 @@ LARGE = 2e9
 
 def check_equilibrium(study: Study, system: System) -> None:
     """Raise ModelError if the study asks for the equilibrium of something that floats."""
-    from ..solvers.floating import check_supported
+    from ..solvers.statics.floating import check_supported
 
     settings = study.simulation
     of = None if settings is None else settings.equilibrium_of
@@ -49,7 +49,7 @@ def notes(study: Study, system: System) -> list[str]:
 
 
 def _floating(system: System) -> Iterator[str]:
-    from ..solvers.floating import check_supported
+    from ..solvers.statics.floating import check_supported
 
     try:
         check_supported(system, [])

@@ -122,7 +122,7 @@ def cross_force(batch, q, v, a, r, ws):
 
 @beginning(StrandBatch)
 def not_in_matrix(batch, q, v, A, c_mass, c_damping, c_stiffness, ws):
-    """What cables do to each other stays out of the matrix, see :mod:`ancf.solvers.entwined`."""
+    """What cables do to each other stays out of the matrix, see :mod:`ancf.solvers.step.entwined`."""
 
 
 @beginning(StrandBatch)

@@ -12,8 +12,8 @@ from ..arrays import FloatArray
 from ..errors import ModelError, SolveError
 from ..model.expression import Expression
 from ..results.store import MemoryStore
-from ..solvers.far import LOOKED
 from ..solvers.quick import DONE, PACKED, Quick
+from ..solvers.sleeping.far import LOOKED
 from ..solvers.status import EVENT, OK, SLOW, TURN
 from ..solvers.stepping import Run
 from ..system.core import Tables

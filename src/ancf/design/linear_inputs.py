@@ -14,8 +14,8 @@ from ..model import checks
 from ..model.inputs import Input
 from ..model.names import unknown
 from ..model.supports import AXES, Clamp
-from ..solvers.damped_modal import Damped
-from ..solvers.linear_moved import Moved, columns_of, forces_of, moved_alone, slope, turned
+from ..solvers.modes.damped_modal import Damped
+from ..solvers.modes.linear_moved import Moved, columns_of, forces_of, moved_alone, slope, turned
 from ..system.inputs import Drive
 from ..system.nodes import node_of
 from ..system.reactions import AT_REST

@@ -14,7 +14,7 @@ from ..model.model import Model
 from ..results import moments
 from ..results.state import State
 from ..sensitivity.answers import MOVED, Face, derivative, is_linear
-from ..solvers.linear import Directions
+from ..solvers.modes.linear import Directions
 from ..system.reactions import held_part, support_name
 from ..system.sensors import turning
 from ..viz.pictures.questions import POINT, QUANTITIES, ask

@@ -15,8 +15,8 @@ from ..preparation import given_state
 from ..results.out_of_balance import notes_of_balance
 from ..results.remembered import Remembered, begin_small
 from ..results.state import State
-from ..solvers.damped_modal import Damped
-from ..solvers.linear import Linear
+from ..solvers.modes.damped_modal import Damped
+from ..solvers.modes.linear import Linear
 from ..system.reactions import AT_REST
 from ..system.redundancy import independent
 from ..system.system import System

@@ -9,7 +9,7 @@ from ..errors import ModelError
 from ..model.beam import Beam
 from ..model.doubts import doubts
 from ..model.points import Point
-from ..solvers.locking import freed, locked, stiffest
+from ..solvers.statics.locking import freed, locked, stiffest
 from ..system import redundancy
 from ..system.consistency import nearly_dependent
 from ..system.system import System

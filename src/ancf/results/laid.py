@@ -8,7 +8,7 @@ from typing import Any
 def notes(known: Any) -> list[str]:
     """What is said of a State in which cables came down without friction before there was any.
 
-    See :func:`ancf.solvers.statics.lay`.
+    See :func:`ancf.solvers.statics.equilibrium.lay`.
     """
     grounds = [item.name for item in known.system.model.grounds if item.friction > 0.0]
     if not (known.known.laid and grounds):

@@ -18,8 +18,8 @@ from ..model.bodies import PointMass, RigidBody
 from ..model.connections import Spring
 from ..model.model import Model
 from ..model.torsion import TorsionSpring
-from ..solvers.damped_modal import rotation_of
-from ..solvers.differences_of_forces import Differences
+from ..solvers.derivatives.differences_of_forces import Differences
+from ..solvers.modes.damped_modal import rotation_of
 from ..system.core import apply_load, residual
 from ..system.system import System
 from . import remembered

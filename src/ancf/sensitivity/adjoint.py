@@ -2,7 +2,7 @@
 
 A first pass takes the steps and leaves a snapshot at the beginning of each block of them.  The second goes
 through the blocks from the last to the first: their states come back by taking their steps again, to the last
-bit, and the adjoint goes back through them (:mod:`ancf.solvers.adjoint`).
+bit, and the adjoint goes back through them (:mod:`ancf.solvers.derivatives.adjoint`).
 """
 
 from __future__ import annotations
@@ -16,11 +16,11 @@ from ..arrays import FloatArray, IntArray
 from ..errors import SolveError
 from ..preparation import Prepared
 from ..results.state import State
-from ..solvers.adjoint import back_start, back_steps
-from ..solvers.ahead import ahead_of
-from ..solvers.friction import Friction
-from ..solvers.friction_back import Forgetting, nothing_forgotten
-from ..solvers.sensitivity import Way, accelerations
+from ..solvers.derivatives.adjoint import back_start, back_steps
+from ..solvers.derivatives.ahead import ahead_of
+from ..solvers.derivatives.friction import Friction
+from ..solvers.derivatives.friction_back import Forgetting, nothing_forgotten
+from ..solvers.derivatives.sensitivity import Way, accelerations
 from ..solvers.status import OK
 from ..system.core import follow_supports
 from ..system.system import System

@@ -11,11 +11,11 @@ from ..batches import Batches
 from ..connections.sliding import SLIDES
 from ..preparation import Prepared
 from ..results.state import State
-from ..solvers.adjoint_joints import ROOM, back_joined_steps
-from ..solvers.adjoint_joints_start import back_joined_start
-from ..solvers.mixing import ROOM as MIXING
-from ..solvers.pushes import weigh_pushes
-from ..solvers.sensitivity import Constraining, Matrices, Way
+from ..solvers.derivatives.adjoint_joints import ROOM, back_joined_steps
+from ..solvers.derivatives.adjoint_joints_start import back_joined_start
+from ..solvers.derivatives.mixing import ROOM as MIXING
+from ..solvers.derivatives.pushes import weigh_pushes
+from ..solvers.derivatives.sensitivity import Constraining, Matrices, Way
 from ..solvers.status import OK
 from ..system.system import System
 from .adjoint import Adjoint, UnsolvedError

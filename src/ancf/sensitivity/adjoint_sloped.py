@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 
 from ..arrays import FloatArray
-from ..solvers.adjoint_sloped import ROOM, back_sloped_start, back_sloped_steps
-from ..solvers.sensitivity import Way
+from ..solvers.derivatives.adjoint_sloped import ROOM, back_sloped_start, back_sloped_steps
+from ..solvers.derivatives.sensitivity import Way
 from ..solvers.status import OK
 from .adjoint import Adjoint, UnsolvedError
 from .start import Start

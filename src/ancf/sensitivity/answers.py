@@ -20,8 +20,8 @@ from ..model.points import Point
 from ..results import moments
 from ..results.momenta import Momenta
 from ..results.state import Energy
+from ..solvers.derivatives.sensitivity import LEAST
 from ..solvers.in_motion import in_motion
-from ..solvers.sensitivity import LEAST
 from ..system.contact_fields import ContactFields
 from ..system.energy import energies
 from ..system.probe import Probe

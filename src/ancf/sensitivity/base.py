@@ -23,9 +23,9 @@ from ..compiled import (
 from ..errors import ModelError
 from ..linalg.eight import lane_rows
 from ..simd import LANES
-from ..solvers.directions import exact_masses
+from ..solvers.derivatives.directions import exact_masses
+from ..solvers.derivatives.sensitivity import FURTHEST, MOVED, Matrices
 from ..solvers.rare import knowing
-from ..solvers.sensitivity import FURTHEST, MOVED, Matrices
 from ..system.core import Core
 from ..system.system import System
 from .remembering import followed, friction_of

@@ -13,7 +13,7 @@ from ..preparation import Prepared, carried_out
 from ..results.result import Result
 from ..results.state import State
 from ..solvers.record import Progress
-from ..solvers.statics import Leaned
+from ..solvers.statics.equilibrium import Leaned
 from ..system.system import System
 from .answers import Face, Sensitivity
 from .base import check_differentiable

@@ -14,13 +14,13 @@ from ..preparation import Prepared, adopted
 from ..results.state import State
 from ..results.store import FileStore
 from ..simd import LANES
-from ..solvers.abreast import follow_steps
-from ..solvers.abreast_room import abreast, room_for
-from ..solvers.ahead import ahead_of
 from ..solvers.checkpoint import Snapshot
-from ..solvers.edge import edge_for
+from ..solvers.derivatives.abreast import follow_steps
+from ..solvers.derivatives.abreast_room import abreast, room_for
+from ..solvers.derivatives.ahead import ahead_of
+from ..solvers.derivatives.edge import edge_for
+from ..solvers.derivatives.sensitivity import Constraining, Matrices, Way, accelerations
 from ..solvers.record import Stats
-from ..solvers.sensitivity import Constraining, Matrices, Way, accelerations
 from ..solvers.status import OK
 from ..system.system import System
 from .base import check_differentiable, matrices_of, moved_with

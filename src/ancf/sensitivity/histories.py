@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..arrays import FloatArray
-from ..solvers.sensitivity import ABAR, Q, V, places
+from ..solvers.derivatives.sensitivity import ABAR, Q, V, places
 
 
 @dataclass(frozen=True)
@@ -25,7 +25,7 @@ class Places:
     rates : (steps + 1, size)
         Those of v.
     h, rest, full, scheme
-        The steps, see :func:`ancf.solvers.sensitivity.places`.
+        The steps, see :func:`ancf.solvers.derivatives.sensitivity.places`.
     """
 
     start: FloatArray

@@ -15,8 +15,8 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..errors import SolveError
+from ..solvers.derivatives.sensitivity import ABAR, A, Q, V
 from ..solvers.events import happen
-from ..solvers.sensitivity import ABAR, A, Q, V
 from ..solvers.start import consistent_start
 from ..system.system import System
 from .family import Family

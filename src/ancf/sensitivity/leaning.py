@@ -16,7 +16,7 @@ from ..arrays import FloatArray
 from ..batches import Batches
 from ..compiled import traits
 from ..errors import SolveError
-from ..solvers.statics import Leaned
+from ..solvers.statics.equilibrium import Leaned
 from ..system.core import Core, keep_memory
 from ..system.system import System
 from .family import Family

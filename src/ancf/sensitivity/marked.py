@@ -11,7 +11,7 @@ from ..arrays import FloatArray
 from ..compiled import add_memory_changes, add_memory_slopes, remember_along
 from ..linalg.eight import lane_rows
 from ..simd import LANES
-from ..solvers.friction import Friction
+from ..solvers.derivatives.friction import Friction
 from ..solvers.rare import knowing
 from ..system.system import System
 from .nearby import changes_of

@@ -28,11 +28,11 @@ from ..compiled import choose_memory, traits
 from ..errors import ModelError
 from ..linalg.eight import lane_rows
 from ..simd import LANES
-from ..solvers.abreast_room import abreast
-from ..solvers.friction import Friction, choose_here
-from ..solvers.friction_start import push_beside, push_start, remember_start
+from ..solvers.derivatives.abreast_room import abreast
+from ..solvers.derivatives.friction import Friction, choose_here
+from ..solvers.derivatives.friction_start import push_beside, push_start, remember_start
+from ..solvers.derivatives.sensitivity import Way
 from ..solvers.rare import knowing
-from ..solvers.sensitivity import Way
 from ..system.core import keep_memory, place_supports
 from ..system.system import System
 from .answers import derivative

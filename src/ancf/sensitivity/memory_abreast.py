@@ -15,11 +15,11 @@ from ..compiled import (
     remember_along,
 )
 from ..linalg.eight import lane_rows
-from ..solvers.abreast_room import abreast
-from ..solvers.friction import Friction, remember_steps
-from ..solvers.friction_start import push_start, remember_start
+from ..solvers.derivatives.abreast_room import abreast
+from ..solvers.derivatives.friction import Friction, remember_steps
+from ..solvers.derivatives.friction_start import push_start, remember_start
+from ..solvers.derivatives.sensitivity import Way
 from ..solvers.rare import knowing
-from ..solvers.sensitivity import Way
 from ..system.core import place_supports
 from .marked import friction_of_all
 from .memory import Memory

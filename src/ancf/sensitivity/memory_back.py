@@ -1,4 +1,4 @@
-"""What friction remembers in a run, backwards: see :mod:`ancf.solvers.friction_back`."""
+"""What friction remembers in a run, backwards: see :mod:`ancf.solvers.derivatives.friction_back`."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ from ..compiled import (
     traits,
 )
 from ..results.state import State
-from ..solvers.friction import Friction, no_friction, remember_steps
-from ..solvers.friction_back import Forgetting
+from ..solvers.derivatives.friction import Friction, no_friction, remember_steps
+from ..solvers.derivatives.friction_back import Forgetting
+from ..solvers.derivatives.sensitivity import Way
 from ..solvers.rare import knowing
-from ..solvers.sensitivity import Way
 from ..system.system import System
 from .family import Family
 from .marked import Marked

@@ -12,7 +12,7 @@ from ..errors import ModelError, SolveError
 from ..later import bmat, csc_array, splu
 from ..linalg.sparse import to_sparse
 from ..results.modes import Modes
-from ..solvers.modal import contacts_about
+from ..solvers.modes.modal import contacts_about
 from ..system.at_rest import assemble_at_rest
 from ..system.core import follow_supports, restrict
 from ..system.fields import Fields

@@ -11,10 +11,10 @@ from ..arrays import BoolArray, FloatArray
 from ..batches import Batches
 from ..compiled import Role, add_changes, traits
 from ..simd import LANES
-from ..solvers.friction import no_friction
-from ..solvers.pushes import Changes, Uses, add_loads, add_pushes
+from ..solvers.derivatives.friction import no_friction
+from ..solvers.derivatives.pushes import Changes, Uses, add_loads, add_pushes
+from ..solvers.derivatives.sensitivity import Way
 from ..solvers.rare import knowing
-from ..solvers.sensitivity import Way
 from ..system.core import apply_load
 from ..system.system import System
 from .alike import same_patterns
@@ -74,7 +74,7 @@ class Nearby:
 
     @cached_property
     def _plainly(self) -> tuple[Uses, Changes, FloatArray]:
-        """What the plain ones ask for, see :func:`ancf.solvers.pushes.add_pushes`."""
+        """What the plain ones ask for, see :func:`ancf.solvers.derivatives.pushes.add_pushes`."""
         rates = self.rates
         left = {k: self.families[k].changed - rates[k].keys() for k in self.plain}
         parts = self.system.parts | self.marked

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..errors import ModelError
-from ..solvers.stages import place_rows, stage_residuals
+from ..solvers.radau.stages import place_rows, stage_residuals
 from ..system.beside import Acts
 from ..system.core import Core, apply_load, apply_supports, place_supports, residual
 from .offsets import FOUR, KINKED, STEEP, STEP

@@ -13,8 +13,8 @@ from ..model.bodies import Body
 from ..model.lookup import parse_point
 from ..model.points import Point
 from ..results.sensors import Sensors
+from ..solvers.derivatives.sensitivity import LEAST
 from ..solvers.sampling import measured_of, measured_slopes, sample_rows, sample_slopes, sampling_of
-from ..solvers.sensitivity import LEAST
 from ..system.sensors import Listing
 from ..system.system import System
 from .answers import MOVED, PLACES, Face, derivative, is_linear, on_another, text_of, unkept

@@ -9,8 +9,8 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..errors import SolveError
-from ..solvers.directions import accelerate_along, rows_along
-from ..solvers.sensitivity import ABAR, MOST, NOISY, A, Matrices, Q, V, Way
+from ..solvers.derivatives.directions import accelerate_along, rows_along
+from ..solvers.derivatives.sensitivity import ABAR, MOST, NOISY, A, Matrices, Q, V, Way
 from ..system.core import (
     apply_supports,
     assemble,

@@ -10,9 +10,9 @@ from ..arrays import FloatArray, IntArray
 from ..errors import SolveError
 from ..later import LinearOperator, csc_array, gmres, splu
 from ..linalg.sparse import to_sparse
-from ..solvers.directions import products_along
-from ..solvers.sensitivity import Way
-from ..solvers.statics import STENCIL_STEP
+from ..solvers.derivatives.directions import products_along
+from ..solvers.derivatives.sensitivity import Way
+from ..solvers.statics.equilibrium import STENCIL_STEP
 from ..system.contacts import touching
 from ..system.core import Core, assemble, follow_supports, place_supports, restrict
 from ..system.system import System

@@ -10,7 +10,7 @@ import numpy as np
 from ..arrays import FloatArray, IntArray
 from ..batches import Batches
 from ..compiled import traits
-from ..solvers.stages import stage_residuals
+from ..solvers.radau.stages import stage_residuals
 from ..system.system import System
 from .alike import OWN
 

@@ -13,10 +13,10 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..compiled import add_number_work
-from ..solvers.friction import no_friction
-from ..solvers.pushes import weigh_loads, weigh_pushes
+from ..solvers.derivatives.friction import no_friction
+from ..solvers.derivatives.pushes import weigh_loads, weigh_pushes
+from ..solvers.derivatives.sensitivity import Way
 from ..solvers.rare import knowing
-from ..solvers.sensitivity import Way
 from .nearby import Nearby, uses_of
 from .rates import joined, rates_of
 

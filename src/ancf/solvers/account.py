@@ -8,7 +8,7 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..system.system import System
-from .memory import Memory
+from .step.memory import Memory
 
 WORTHLESS = 0.2  # energy that does not add up, as the same share, of which a run that ends warns
 #: Energy that may come from round-off: shares of the energies at the start, and of what strain 1 and the

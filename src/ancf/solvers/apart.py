@@ -23,19 +23,19 @@ from ..system.core import (
     solve_kept,
     to_local,
 )
-from .balance import balance
-from .corotation import remember, turn_forth, turn_rows
-from .corrections import shift
-from .entwined import hold_zones, let_go_zones, solve_entwined
-from .far import begin_far, end_far, show_far
-from .far_awake import asleep, iterate_awake, matrix_awake
-from .low_rank import correct_rows, forget
-from .memory import H_FACTOR, WORST, Memory
-from .near import iterate
-from .renewal import renewed
 from .sampling import Sampling, note_now, sample
-from .scheme import Scheme
+from .sleeping.awake import asleep, iterate_awake, matrix_awake
+from .sleeping.far import begin_far, end_far, show_far
 from .status import FACTORIZATIONS, JACOBIANS
+from .step.balance import balance
+from .step.corotation import remember, turn_forth, turn_rows
+from .step.corrections import shift
+from .step.entwined import hold_zones, let_go_zones, solve_entwined
+from .step.low_rank import correct_rows, forget
+from .step.memory import H_FACTOR, WORST, Memory
+from .step.near import iterate
+from .step.renewal import renewed
+from .step.scheme import Scheme
 
 #: Share of the tolerance up to which constraints need no shift.
 HELD = 0.1
@@ -75,7 +75,7 @@ _entwined, _zones = caller(types.none), caller(types.none)
 def new_matrix(core, s, h, B, G, awake):
     """Make and factorise the matrix of a step h in the present state; whether that is possible.
 
-    ``awake`` is the address of :func:`ancf.solvers.far_awake.matrix_awake` where something may sleep.
+    ``awake`` is the address of :func:`ancf.solvers.sleeping.awake.matrix_awake` where something may sleep.
     """
     s.counts[JACOBIANS] += 1
     s.counts[FACTORIZATIONS] += 1
@@ -152,7 +152,7 @@ def projected(apart, core, s, rule):
 
 @formula
 def book(apart, core, s, h):
-    """See :func:`ancf.solvers.balance.balance`."""
+    """See :func:`ancf.solvers.step.balance.balance`."""
     if core.accounted:
         _balance(apart.balance, (core, s, h))
 
@@ -172,53 +172,53 @@ def take_sample(apart, sampling, s, row):
 
 @formula
 def begin_parts(apart, core, s, h, scheme, gb, ib):
-    """See :func:`ancf.solvers.far.begin_far`; nothing happens where nothing can sleep."""
+    """See :func:`ancf.solvers.sleeping.far.begin_far`; nothing happens where nothing can sleep."""
     if apart.begin_far != 0:
         _begin_far(apart.begin_far, (core, s, h, scheme, gb, ib))
 
 
 @formula
 def end_parts(apart, core, s, scheme, gb, ib):
-    """See :func:`ancf.solvers.far.end_far`."""
+    """See :func:`ancf.solvers.sleeping.far.end_far`."""
     return apart.end_far != 0 and _end_far(apart.end_far, (core, s, scheme, gb, ib))
 
 
 @formula
 def show_parts(apart, core, s, whole):
-    """See :func:`ancf.solvers.far.show_far`."""
+    """See :func:`ancf.solvers.sleeping.far.show_far`."""
     if apart.show_far != 0:
         show_far_at(apart.show_far, (core, s, whole))
 
 
 @formula
 def iterated_awake(apart, core, s, gb, ib):
-    """See :func:`ancf.solvers.far_awake.iterate_awake`."""
+    """See :func:`ancf.solvers.sleeping.awake.iterate_awake`."""
     return _iterate_awake(apart.iterate_awake, (core, s, gb, ib, apart.correct))
 
 
 @formula
 def iterated(apart, core, s, limit, gb, ib):
-    """See :func:`ancf.solvers.near.iterate`."""
+    """See :func:`ancf.solvers.step.near.iterate`."""
     return _iterate(apart.iterate, (core, s, limit, gb, ib, apart.correct))
 
 
 @formula
 def entwined(apart, core, s, rule, gb):
-    """See :func:`ancf.solvers.entwined.solve_entwined`; nothing happens where no cables touch each other."""
+    """See :func:`ancf.solvers.step.entwined.solve_entwined`; nothing happens where no cables touch."""
     if apart.entwined != 0:
         _entwined(apart.entwined, (record_at(core.entwined, 0), core, s, rule.corotate, gb, apart.correct))
 
 
 @formula
 def zones_held(apart, core, s):
-    """See :func:`ancf.solvers.entwined.hold_zones`."""
+    """See :func:`ancf.solvers.step.entwined.hold_zones`."""
     if apart.hold_zones != 0:
         _zones(apart.hold_zones, (record_at(core.entwined, 0), s.q))
 
 
 @formula
 def zones_let_go(apart, core):
-    """See :func:`ancf.solvers.entwined.let_go_zones`."""
+    """See :func:`ancf.solvers.step.entwined.let_go_zones`."""
     if apart.let_go_zones != 0:
         _zones(apart.let_go_zones, (record_at(core.entwined, 0),))
 

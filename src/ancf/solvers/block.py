@@ -13,11 +13,11 @@ from ..compiled import kernel
 from ..records import type_of
 from ..system.core import Core, Tables
 from .apart import Apart, apart_of, needed, show_far_at, strands_of
-from .explicit import advance_explicit
-from .memory import Memory
+from .explicit.steps import advance_explicit
 from .newmark import Rule, advance
 from .sampling import Output, Sampling
-from .scheme import Scheme
+from .step.memory import Memory
+from .step.scheme import Scheme
 
 #: What a block of steps returns: how many were done, and the status of the last one.
 BLOCK = types.UniTuple(types.int64, 2)
@@ -35,7 +35,7 @@ def implicit_types(
 
 
 def explicit_types(core: Any, memory: Any, sampling: Any, apart: Any = _APART) -> tuple[Any, ...]:
-    """The same of :func:`ancf.solvers.explicit.advance_explicit`."""
+    """The same of :func:`ancf.solvers.explicit.steps.advance_explicit`."""
     return core, memory, _TABLES, types.float64, types.boolean, _KEPT, sampling, _OUT, apart
 
 
@@ -54,14 +54,14 @@ def implicit_block(steps, core, memory, tables, h, scheme, rule, keep, sampling,
 
 @kernel
 def explicit_block(steps, core, memory, tables, h, turning, keep, sampling, out, apart):
-    """The same for :func:`ancf.solvers.explicit.advance_explicit`."""
+    """The same for :func:`ancf.solvers.explicit.steps.advance_explicit`."""
     core, memory, sampling, apart = pointer(core), pointer(memory), pointer(sampling), pointer(apart)
     return take_explicit(steps, (core, memory, tables, h, turning, keep, sampling, out, apart))
 
 
 @kernel
 def show_at(function, core, memory, whole):
-    """Call :func:`ancf.solvers.far.show_far` by its address, with those of core and memory."""
+    """Call :func:`ancf.solvers.sleeping.far.show_far` by its address, with those of core and memory."""
     show_far_at(function, (pointer(core), pointer(memory), whole))
 
 

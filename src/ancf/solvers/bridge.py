@@ -10,15 +10,15 @@ from ..arrays import FloatArray, IntArray
 from ..system.core import Core, Tables, apply_load
 from ..system.energy import energies
 from ..system.system import System
-from .balance import begin_account
-from .corrections import UNLIMITED
-from .memory import H_FACTOR, KNOWN, VECTORS, Memory
 from .newmark import FURTHEST, LAST, Rule
-from .rescue import Rescue
 from .sampling import Output, Sampling
-from .scheme import Scheme
 from .status import EVENT, INVERTED, OK, RETRIES, SINGULAR, STEPS, TOO_MANY, TURN, UNBALANCED
-from .unresolved import resolve
+from .step.balance import begin_account
+from .step.corrections import UNLIMITED
+from .step.memory import H_FACTOR, KNOWN, VECTORS, Memory
+from .step.rescue import Rescue
+from .step.scheme import Scheme
+from .step.unresolved import resolve
 
 #: A step is cut into at most 2 ** MOST_HALVINGS parts.
 MOST_HALVINGS = 10

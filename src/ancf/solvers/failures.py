@@ -14,8 +14,8 @@ from ..system.compile import beams_by_kind
 from ..system.core import find_inverted
 from ..system.system import System
 from .bridge import MOST_PARTS
-from .memory import NORM, WORST
 from .status import COLLAPSED, DIVERGED, FAR, NOT_FINITE, SINGULAR, SLOW, THROUGH, TOO_MANY, UNBALANCED
+from .step.memory import NORM, WORST
 
 REASONS = {
     DIVERGED: "Newton's method diverged, also with full Jacobians and smaller steps",

@@ -11,7 +11,7 @@ gamma = 1/2.  Newton corrects q by dq, v by (G/B) dq and a by dq/B with the matr
 Modified Newton keeps that matrix over iterations and steps.  With the contraction theta of successive
 corrections the error left is about theta/(1 - theta) |dq|, and the iteration stops when that is below
 the tolerance.  The matrix is renewed when theta exceeds the limit or the iterations run out.  What is left
-of the forces is carried over to the next step where that matters (:mod:`ancf.solvers.carry`).
+of the forces is carried over to the next step where that matters (:mod:`ancf.solvers.step.carry`).
 
 Constraints add multipliers to the unknowns, which have no rates: dq alone is added to them.  Which time
 derivative of a constraint its row asks for is the formulation's choice (:mod:`ancf.solvers.formulations`).
@@ -47,16 +47,7 @@ from .apart import (
     zones_held,
     zones_let_go,
 )
-from .carry import carry, keeps_rows, unbalanced
-from .corotation import turn
-from .corrections import UNLIMITED, largest, update
-from .entwined import solve_apart
-from .far_awake import asleep, finish_awake, load_awake, predict_awake, restore_awake
-from .low_rank import move_on
-from .memory import ETA, H_FACTOR, KNOWN, NOISE, NORM, WORST
-from .near import take_all
-from .renewal import count
-from .scheme import coefficients, finish, predict, restore, show_bars
+from .sleeping.awake import asleep, finish_awake, load_awake, predict_awake, restore_awake
 from .status import (
     DIVERGED,
     EVENT,
@@ -69,7 +60,16 @@ from .status import (
     SLOW,
     TURN,
 )
-from .step_checks import check_sections, check_way
+from .step.carry import carry, keeps_rows, unbalanced
+from .step.checks import check_sections, check_way
+from .step.corotation import turn
+from .step.corrections import UNLIMITED, largest, update
+from .step.entwined import solve_apart
+from .step.low_rank import move_on
+from .step.memory import ETA, H_FACTOR, KNOWN, NOISE, NORM, WORST
+from .step.near import take_all
+from .step.renewal import count
+from .step.scheme import coefficients, finish, predict, restore, show_bars
 
 #: Least theta/(1 - theta) that is believed before a step has shown its own contraction, and the power that
 #: brings the one of the step before nearer to 1.

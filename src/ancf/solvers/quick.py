@@ -20,11 +20,11 @@ from ..records import recorded, type_of
 from ..system.core import Core, Tables
 from .apart import Apart
 from .block import take_explicit, take_implicit
-from .memory import Memory
 from .newmark import Rule
 from .sampling import Output, Sampling
-from .scheme import Scheme
 from .status import OK
+from .step.memory import Memory
+from .step.scheme import Scheme
 
 #: Factor of the number of steps in what kernels return, where a status is smaller; one step that went well.
 PACKED = 1 << 32
@@ -50,7 +50,7 @@ class Implicit(NamedTuple):
 
 @recorded
 class Direct(NamedTuple):
-    """The same of :func:`ancf.solvers.explicit.advance_explicit`."""
+    """The same of :func:`ancf.solvers.explicit.steps.advance_explicit`."""
 
     steps: int  # address
     core: Core

@@ -20,26 +20,26 @@ from ..system.energy import energies
 from ..system.system import System
 from . import failures
 from .apart import Apart
-from .asleep import Asleep
-from .balance import begin_account
 from .block import implicit_block, kernels_of
 from .bridge import Bridge
 from .checkpoint import Snapshot, Watched, copies
 from .control import Control
-from .corotation import flies, turning_nodes
-from .corrections import UNLIMITED
 from .events import happen
 from .formulations import FORMULATIONS
-from .low_rank import room_for_patches
-from .memory import H_FACTOR, H_PREV, KNOWN, WORST, Memory, allocate
 from .newmark import Rule
 from .quick import Direct, Implicit, shared
 from .record import Progress, Recorder, Stats
 from .sampling import Output, note_now, resample, sampling_of
-from .scheme import Scheme
+from .sleeping.asleep import Asleep
 from .span import Span
 from .start import consistent_start
 from .status import EVENT, INVERTED, OK, SLOW, TURN
+from .step.balance import begin_account
+from .step.corotation import flies, turning_nodes
+from .step.corrections import UNLIMITED
+from .step.low_rank import room_for_patches
+from .step.memory import H_FACTOR, H_PREV, KNOWN, WORST, Memory, allocate
+from .step.scheme import Scheme
 
 BLOCK_SECONDS = 0.1  # between two looks at the keyboard, the progress and the file
 #: So many times longer than telling what a block has done take its steps, but so many seconds at most.

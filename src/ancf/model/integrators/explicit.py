@@ -35,7 +35,7 @@ class Explicit(Integrator):
     )
     check: bool = option(True, "Whether it refuses unstable steps [-].", type="boolean")
     name = "explicit"
-    runner = "explicit_run:ExplicitRun"
+    runner = "explicit.run:ExplicitRun"
 
     def __post_init__(self) -> None:
         if not 0.0 < checks.number(self.safety, "Explicit.safety") <= 1.0:

@@ -23,7 +23,7 @@ class Newton:
     modified : bool
         Keep the Jacobian over iterations and steps; False: a new one for every iteration.
     corotate : bool
-        Turn a kept Jacobian with the nodes (:mod:`ancf.solvers.corotation`); False gives the plain
+        Turn a kept Jacobian with the nodes (:mod:`ancf.solvers.step.corotation`); False gives the plain
         modified Newton method, whose Jacobian counts the paper reports.
     """
 

@@ -48,7 +48,7 @@ class Radau(Integrator):
     min_step: float | None = option(None, "Smallest step [s].", type="number", exclusiveMinimum=0)
     max_step: float | None = option(None, "Largest step [s].", type="number", exclusiveMinimum=0)
     name = "radau"
-    runner = "radau_run:RadauRun"
+    runner = "radau.run:RadauRun"
 
     def __post_init__(self) -> None:
         checks.integer(self.stages, "Radau.stages", 2, 3)

@@ -1,0 +1,297 @@
+"""The adjoint of the steps of models with forces that know the slopes of their work, see ``adjoint``.
+
+With T_q, T_v and T_a the derivatives of R by q, v and a, a step solves T^T lambda = goal for
+
+    T = w_q T_q + w_v T_v + w_a T_a,      (w_q, w_v, w_a) = (1, G/B, 1/B),
+
+where the matrix A in the factors lacks of T what tangents leave out, as the turning of drag or a contact.
+T^T d is the product of the exact matrices and the slopes of the work d . force of the others.  Corrections
+are conjugate residuals: each is A^-1 times what is left, less its parts along those before it, and takes
+from what is left all that it can.  So what is lacking of few rows, however stiff, ends after as many.
+"""
+
+from __future__ import annotations
+
+from ...batches import add_tangents
+from ...compiled import inline_kernel, kernel
+from ...linalg.eight import factor_of
+from ...simd import LANES
+from ...system.core import drive, onto_shadows, solve_matrix, to_local
+from ..rare import add_all_slopes, add_rate_works, add_tangent_works
+from ..status import OK, SINGULAR, SLOW
+from ..step.scheme import coefficients
+from .adjoint import SURE, add_turns, folded, hold, take_wanted, to_start
+from .ahead import look_ahead
+from .friction import bring
+from .friction_back import is_there, through_force, through_memory
+from .sensitivity import LEAST, MOST, NOISY, product, stiffnesses
+
+#: Directions that are kept, vectors of each: it, A and T^T times it, and that by q, v and a.
+KEPT, OF_EACH = 10, 6
+#: Corrections after which those that do not shrink may be round-off.
+MANY = 5
+#: Vectors of room: T_q^T, T_v^T, T_a^T lambda; the same of a correction; what A lacks, twice; what is left, a
+#: correction, what is solved for, room of products.
+SUMS, OWN, LACKS, LEFT, CHANGE, GOAL, WORK, FIRST = 0, 3, 6, 8, 9, 10, 11, 13
+ROOM = FIRST + OF_EACH * KEPT
+
+
+@inline_kernel
+def add_exact(core, m, matrices, y, d, sums, w):
+    """Add the products of the exact matrices at y with d, which has its shadows filled, to the sums."""
+    add_tangent_works(m.worked, y[0], y[1], d, sums[0], sums[1], sums[2], core.ws)
+    if m.exact.table.shape[0] == 0:
+        return
+    product(core, matrices[0], d, sums[0], w)
+    if m.damped:
+        product(core, matrices[1], d, sums[1], w)
+    product(core, m.M, d, sums[2], w)
+
+
+@inline_kernel
+def add_slopes(core, m, y, d, sums):
+    """Add what else the forces do to d in the state y."""
+    add_rate_works(m.stirred, y[0], y[1], d, sums[0], core.ws)
+    add_all_slopes(m.joined, y[0], y[1], y[2], d, sums[0], sums[1], sums[2], core.ws)
+
+
+@inline_kernel
+def whole(core, weights, sums, r):
+    """r = T^T times what the sums are of, as the solve wants it."""
+    for i in range(r.shape[0]):
+        r[i] = weights[0] * sums[0, i] + weights[1] * sums[1, i] + weights[2] * sums[2, i]
+    to_local(core.supports, r)
+    for i in range(core.weight.shape[0], r.shape[0]):
+        r[i] = 0.0
+    hold(core.supports, r)
+
+
+@inline_kernel
+def solved(core, factor, x):
+    """A^-1 x, the shadows filled."""
+    n = core.weight.shape[0]
+    solve_matrix(factor, x)
+    for i in range(n, x.shape[0]):
+        x[i] = 0.0
+    onto_shadows(core.supports, x)
+
+
+@inline_kernel
+def product_of(x, y):
+    """Sum of the products of the entries."""
+    s = 0.0
+    for i in range(x.shape[0]):
+        s += x[i] * y[i]
+    return s
+
+
+@inline_kernel
+def add_times(f, x, y):
+    """y += f x."""
+    for k in range(x.shape[0]):
+        for i in range(x.shape[1]):
+            y[k, i] += f * x[k, i]
+
+
+@inline_kernel
+def largest(x, n):
+    """The largest of the first n by size."""
+    size = 0.0
+    for i in range(n):
+        size = max(size, abs(x[i]))
+    return size
+
+
+@inline_kernel
+def begun(core, factor, known, lam, room):
+    """Solve with what A lacked in the later steps, ``known`` of them, led on; that is left in room[LACKS]."""
+    goal, one, two = room[GOAL], room[LACKS], room[LACKS + 1]
+    for i in range(lam.shape[0]):
+        guess = 0.0 if known == 0 else (one[i] if known == 1 else 2.0 * one[i] - two[i])
+        two[i], one[i] = one[i], guess
+        lam[i] = goal[i] - guess
+    solved(core, factor, lam)
+
+
+@inline_kernel
+def direction(core, weights, round, room):
+    """Keep the correction as a direction, less its parts along those before it; where it is."""
+    own = FIRST + OF_EACH * (round % KEPT)
+    for i in range(room.shape[1]):
+        room[own, i], room[own + 1, i] = room[CHANGE, i], room[LEFT, i]
+        room[own + 3, i], room[own + 4, i], room[own + 5, i] = (
+            room[OWN, i],
+            room[OWN + 1, i],
+            room[OWN + 2, i],
+        )
+    whole(core, weights, room[OWN:LACKS], room[own + 2])
+    for k in range(min(round, KEPT)):
+        other = FIRST + OF_EACH * k
+        size = product_of(room[other + 2], room[other + 2])
+        if other != own and size > 0.0:
+            f = -product_of(room[own + 2], room[other + 2]) / size
+            add_times(f, room[other : other + OF_EACH], room[own : own + OF_EACH])
+    return own
+
+
+@inline_kernel
+def may_end(norm, size, before, round):
+    """Whether corrections may end with one of this size: the next would be too small, or it is round-off.
+
+    Those of a few rows shrink when there have been as many, and not before.
+    """
+    rate = min(norm / before, 1.0) if round > 0 else 1.0  # nothing is known of a contact that has begun
+    if rate * norm <= SURE * size or norm < LEAST:
+        return True
+    return round >= MANY and norm <= NOISY * size and norm >= 0.5 * before
+
+
+@inline_kernel
+def solve(core, m, factor, matrices, weights, y, known, lam, count, room):
+    """Fill lambda for room[GOAL], and room[SUMS] of it; a status.
+
+    ``known``: how many steps have been solved before; ``count``: of all corrections, is added to.
+    """
+    n, sums, own, before = core.weight.shape[0], room[SUMS:OWN], room[OWN:LACKS], 0.0
+    left, change, w, lacks = room[LEFT], room[CHANGE], room[WORK:FIRST], room[LACKS]
+    begun(core, factor, known, lam, room)
+    for k in range(SUMS, LACKS):
+        for i in range(lam.shape[0]):
+            room[k, i] = 0.0
+    add_exact(core, m, matrices, y, lam, sums, w)
+    add_slopes(core, m, y, lam, sums)
+    whole(core, weights, sums, change)
+    for i in range(lam.shape[0]):
+        left[i] = room[GOAL, i] - change[i]
+    for round in range(MOST):
+        count[0] += 1.0
+        for i in range(lam.shape[0]):
+            change[i] = left[i]
+        solved(core, factor, change)
+        norm, size = largest(change, n), largest(lam, n)
+        for k in range(OWN, LACKS):
+            for i in range(lam.shape[0]):
+                room[k, i] = 0.0
+        add_exact(core, m, matrices, y, change, own, w)
+        if may_end(norm, size, before, round):
+            for i in range(lam.shape[0]):
+                lam[i] += change[i]
+                lacks[i] -= left[i]
+            add_times(1.0, own, sums)
+            return OK
+        before = norm
+        add_slopes(core, m, y, change, own)
+        of = direction(core, weights, round, room)
+        size = product_of(room[of + 2], room[of + 2])
+        if not size > 0.0:
+            return SLOW
+        f = product_of(room[of + 2], left) / size
+        for i in range(lam.shape[0]):
+            lam[i] += f * room[of, i]
+            lacks[i] -= f * room[of + 1, i]
+            left[i] -= f * room[of + 2, i]
+        add_times(f, room[of + 3 : of + OF_EACH], sums)
+    return SLOW
+
+
+@inline_kernel
+def take(core, y, mu, room, still, turned):
+    """Take the sums from mu_q and mu_v; they are added to ``still`` and ``turned``."""
+    sums, back = room[SUMS:OWN], room[WORK:FIRST]
+    add_turns(core.supports, sums, y, turned)
+    for i in range(still.shape[0]):
+        back[0, i], back[1, i] = sums[0, i], sums[1, i]
+        still[i] += sums[0, i]
+    folded(core.supports, sums, back)
+    for i in range(core.weight.shape[0]):
+        mu[0, i] -= back[0, i]
+        mu[1, i] -= back[1, i]
+
+
+@inline_kernel
+def take_memory(core, back, y, mu, room, still, turned):
+    """Add to mu_q and mu_v what a step leaves in memories of friction does."""
+    for k in range(SUMS, OWN):
+        for i in range(room.shape[1]):
+            room[k, i] = 0.0
+    through_memory(back, y[0], y[1], room[SUMS], room[SUMS + 1], core.ws)
+    take(core, y, mu, room, still, turned)
+
+
+@kernel
+def back_sloped_start(core, m, friction, back, y, wanted, unknowns, mu, lam, still, turned, count, room):
+    """Carry the adjoint through the accelerations of a consistent start, as ``back_start``; a status.
+
+    ``friction``: with what it remembers at the start, and what the first memory is made of.
+    """
+    bring(friction, 0)
+    n, none, K, C = core.weight.shape[0], room[WORK], m.K, m.C
+    take_wanted(core.supports, wanted, unknowns, mu, m.work[5:8], m.work[1:3])
+    for i in range(none.shape[0]):
+        none[i] = 0.0
+    stiffnesses(core, m, K, m.W, y[0], y[1], none)
+    for i in range(C.shape[0]):
+        C[i] = 0.0
+    add_tangents(m.exact, y[0], y[1], C, 0.0, 1.0, 0.0, core.ws)
+    for i in range(lam.shape[0]):
+        room[GOAL, i] = mu[2, i] + mu[3, i] if i < n else 0.0
+    hold(core.supports, room[GOAL])
+    status = solve(core, m, core.factor, (K, C), (0.0, 0.0, 1.0), y, 0, lam, count, room)
+    take(core, y, mu, room, still, turned)
+    through_force(back, y[0], y[1], lam, core.ws)
+    if back.anew:
+        bring(friction, 1)
+        take_memory(core, back, y, mu, room, still, turned)
+        bring(friction, 0)
+    for i in range(lam.shape[0]):
+        mu[2, i] = mu[3, i] = 0.0
+        if i >= n:
+            mu[0, i] = mu[1, i] = lam[i] = 0.0
+    return status
+
+
+@kernel
+def back_sloped_steps(
+    core, m, ahead, back, tables, way, wanted, unknowns, h, scheme, mu, out, still, turned, count, room
+):
+    """Carry the adjoint back through the steps of a block.
+
+    Parameters
+    ----------
+    core, m, ahead, tables, way, wanted, unknowns, h, scheme, mu, out, still, turned
+        See :func:`ancf.solvers.derivatives.adjoint.back_steps`.
+    back : Forgetting
+    count : (1,)
+        Corrections, added to.
+    room : (ROOM, size)
+
+    Returns
+    -------
+    Steps done and the status of the last one.
+    """
+    B, G = coefficients(h, scheme)
+    c1 = (1.0 - scheme.alpha_f) / (1.0 - scheme.alpha_m)
+    n, size, weights = core.weight.shape[0], mu.shape[1], (1.0, G / B, 1.0 / B)
+    for step in range(way.q.shape[0]):
+        at = way.q.shape[0] - 1 - step
+        k = at % LANES
+        fresh = step == 0 or k == LANES - 1
+        if fresh and look_ahead(core, m, ahead, tables, way, at - k, B, G, True) >= 0:
+            return step, SINGULAR
+        drive(core.supports, core.loads.value, tables, at, way.q[at], way.v[at], way.a[at])
+        bring(ahead.friction, at)
+        lam, y = out[at], (way.q[at], way.v[at], way.a[at])
+        if is_there(back):
+            take_memory(core, back, y, mu, room, still, turned)
+        take_wanted(core.supports, wanted[at], unknowns, mu, m.work[5:8], m.work[1:3])
+        factor, matrices = factor_of(core.factor, ahead.eight, k), (ahead.K[k], ahead.C[k])
+        for i in range(size):
+            room[GOAL, i] = mu[0, i] + (G * mu[1, i] + c1 * mu[3, i] + mu[2, i]) / B if i < n else 0.0
+        hold(core.supports, room[GOAL])
+        status = solve(core, m, factor, matrices, weights, y, min(step, 2), lam, count, room)
+        if status != OK:
+            return step, status
+        take(core, y, mu, room, still, turned)
+        through_force(back, y[0], y[1], lam, core.ws)
+        to_start(n, h, scheme, mu, lam)
+    return way.q.shape[0], OK

@@ -1,0 +1,1 @@
+"""Static equilibrium: load steps, corrections, and what slack, turning and sliding needs besides."""

@@ -1,0 +1,39 @@
+"""How far round-off reaches: the unknowns of a state changed by what their last digits do not hold.
+
+A state vector holds positions to the last digit of the model's coordinates and slopes to that of 1.  What
+changes when these digits do is not known: forces, stiffnesses, and what follows from them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...arrays import FloatArray
+from ...system.core import follow_supports
+from ...system.system import System
+
+#: Changes of a state, and their size in units of the last digit.
+TIMES, DIGITS = 4, 2.0
+
+
+def shaken(system: System, q: FloatArray) -> Iterator[FloatArray]:
+    """State vectors beside q (size,), equal to it but for the last digits of the unknowns that are free."""
+    n, weight = system.n, system.core.weight
+    free = np.setdiff1d(system.free, system.multipliers)
+    places = np.flatnonzero(np.isin(np.arange(n), _positions(system)))
+    unit = np.where(weight > 0.0, 1.0 / np.where(weight > 0.0, weight, 1.0), 0.0)
+    unit[places] = np.maximum(unit[places], np.max(np.abs(q[places]), initial=0.0))
+    rng = np.random.default_rng(1)
+    for _ in range(TIMES):
+        near = q.copy()
+        near[free] += DIGITS * np.finfo(float).eps * unit[free] * rng.uniform(-1.0, 1.0, len(free))
+        follow_supports(system.core.supports, near, np.zeros_like(near), np.zeros_like(near))
+        yield near
+
+
+def _positions(system: System) -> NDArray[np.int64]:
+    first = [slots[:, 0] for slots in system.numbering.slots.values()]
+    return (np.concatenate(first)[:, None] + np.arange(3)).ravel()
