@@ -24,7 +24,7 @@ from typing import Any
 import numpy as np
 
 from ancf import catenary
-from ancf.catenary.references import reference_case
+from ancf.catenary.answers.references import reference_case
 
 NAME = "en50318-2018-ac-simple"
 SPEEDS = (275, 320)

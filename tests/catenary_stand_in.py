@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 
 from ancf.catenary import Conditions, Elasticity
-from ancf.catenary.run_data import Recording, Run
+from ancf.catenary.answers.run_data import Recording, Run
 
 SPAN, SPANS = 60.0, 10
 DROPPERS = (5.0, 10.5, 17.0, 23.5, 30.0, 36.5, 43.0, 49.5, 55.0)

@@ -9,9 +9,9 @@ import ancf
 import catenary_stand_in as stand_in
 import fake_exhibits
 from ancf.catenary import MeasuringHead, measure, write_run
-from ancf.catenary.kept import read_runs
-from ancf.catenary.quantity import Quantity
-from ancf.catenary.references import reference_case
+from ancf.catenary.answers.kept import read_runs
+from ancf.catenary.answers.quantity import Quantity
+from ancf.catenary.answers.references import reference_case
 from ancf.catenary.report import write_report
 from ancf.catenary.report.comparison import write_comparison
 from ancf.catenary.report.sweep import Sweep, write_sweep

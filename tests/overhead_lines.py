@@ -1,7 +1,7 @@
 """A short line with unequal spans and stagger for quick runs, in Python and as a file."""
 
 from ancf.catenary import Line, Mesh, Pantograph, Rayleigh, Span, SteadyArm, Wire
-from ancf.catenary.fittings import Droppers
+from ancf.catenary.lines.fittings import Droppers
 
 #: Lengths of the spans in m, and sideways places of the contact wire at the supports in m.
 LENGTHS = (30.0, 36.0, 32.0, 38.0, 30.0)

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ._version import __version__
-from .catenary.quantity import Quantity, shown_limits, verdict
+from .catenary.answers.quantity import Quantity, shown_limits, verdict
 from .files import to_json, write_text
 from .viz.html import element, figure, section, table
 from .viz.html import page as whole_page

@@ -15,7 +15,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import ancf
-from ancf.catenary.file import parse_line, read_file
+from ancf.catenary.lines.file import parse_line, read_file
 from ancf.cli.check import check_file
 from ancf.cli.notes import check_equilibrium, notes
 from ancf.model.file import parse_study, read_study

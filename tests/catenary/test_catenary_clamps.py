@@ -9,8 +9,8 @@ from scipy.linalg import eigh
 
 import overhead_oracle
 from ancf.catenary import Mesh, Rayleigh, Wire, form, read_line
-from ancf.catenary.clamps import missing_give
-from ancf.catenary.mesh import Nodes
+from ancf.catenary.forms.clamps import missing_give
+from ancf.catenary.forms.mesh import Nodes
 from ancf.errors import ModelError
 from overhead_cases import LINE_2002
 from overhead_oracle import Beam, OverheadLine

@@ -28,8 +28,8 @@ from ancf.catenary import (
     read_line,
     verify,
 )
-from ancf.catenary.schedule import COLUMNS, rows, texts
-from ancf.catenary.strings import lumped, string_loads, string_shape
+from ancf.catenary.forms.schedule import COLUMNS, rows, texts
+from ancf.catenary.forms.strings import lumped, string_loads, string_shape
 from ancf.cli.app import app
 from ancf.errors import ModelError
 from places import DATA, EXAMPLES

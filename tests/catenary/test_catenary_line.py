@@ -18,8 +18,8 @@ from ancf.catenary import (
     line_names,
     read_line,
 )
-from ancf.catenary.line_parts import MAY_LACK, PARTS
-from ancf.catenary.mesh import divided
+from ancf.catenary.forms.mesh import divided
+from ancf.catenary.lines.line_parts import MAY_LACK, PARTS
 from ancf.errors import ModelError
 from places import DATA, EXAMPLES
 

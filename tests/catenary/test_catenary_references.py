@@ -12,12 +12,18 @@ from rich.console import Console
 
 import catenary_stand_in as stand_in
 from ancf import ModelError
-from ancf.catenary.quantity import Quantity, shown, shown_limits
-from ancf.catenary.references import filter_note, reference_case, reference_names, rows, second_reading
+from ancf.catenary.answers.quantity import Quantity, shown, shown_limits
+from ancf.catenary.answers.references import (
+    filter_note,
+    reference_case,
+    reference_names,
+    rows,
+    second_reading,
+)
+from ancf.catenary.answers.statistics import statistics
+from ancf.catenary.answers.table import table
+from ancf.catenary.answers.write import write_run
 from ancf.catenary.report.tables import flattened
-from ancf.catenary.statistics import statistics
-from ancf.catenary.table import table
-from ancf.catenary.write import write_run
 
 #: The accepted ranges as published: by case and quantity, at the lower and the higher speed.
 PUBLISHED = {

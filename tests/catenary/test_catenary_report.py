@@ -16,11 +16,11 @@ from typer.testing import CliRunner
 import catenary_stand_in as stand_in
 from ancf import ModelError
 from ancf.catenary import Elasticity, MeasuringHead, measure, validate
-from ancf.catenary.quantity import shown
-from ancf.catenary.references import reference_case
+from ancf.catenary.answers.quantity import shown
+from ancf.catenary.answers.references import reference_case
+from ancf.catenary.answers.statistics import statistics
 from ancf.catenary.report import Content, write_report
 from ancf.catenary.report.figures import FIGURES, figure_names, picture
-from ancf.catenary.statistics import statistics
 from ancf.cli.app import app
 from ancf.viz import style
 from commands import python
@@ -292,7 +292,7 @@ sys.path.insert(0, {str(stand_in.__file__.rsplit("/", 1)[0])!r})
 import catenary_stand_in
 from pathlib import Path
 from ancf.catenary.report import write_report
-from ancf.catenary.write import write_run
+from ancf.catenary.answers.write import write_run
 run, folder = catenary_stand_in.run(), Path({str(tmp_path)!r})
 write_run(run, folder)
 try:

@@ -12,10 +12,10 @@ import pytest
 import ancf
 from ancf import ModelError, catenary
 from ancf.catenary import Butterworth, Mesh, Span, form, read_line, reference_run, rows, run, statistics
-from ancf.catenary.passing import in_window
-from ancf.catenary.references import reference_case
-from ancf.catenary.statistics import mean_force_target
-from ancf.catenary.travel import make_travel
+from ancf.catenary.answers.passing import in_window
+from ancf.catenary.answers.references import reference_case
+from ancf.catenary.answers.statistics import mean_force_target
+from ancf.catenary.vehicles.travel import make_travel
 from overhead_lines import COARSE, LENGTHS, STAGGER, STEP, collector, droppers, short_line
 from places import DATA
 

@@ -7,9 +7,9 @@ import pytest
 
 import catenary_stand_in as stand_in
 from ancf import ModelError
-from ancf.catenary.passing import dropper_forces, dropper_places, in_window, uplift_at_supports
-from ancf.catenary.signals import Butterworth, at_zero, histogram, sample_rate, spectrum
-from ancf.catenary.statistics import mean_force_target, statistics
+from ancf.catenary.answers.passing import dropper_forces, dropper_places, in_window, uplift_at_supports
+from ancf.catenary.answers.signals import Butterworth, at_zero, histogram, sample_rate, spectrum
+from ancf.catenary.answers.statistics import mean_force_target, statistics
 
 RATE = 1000.0
 T = np.arange(12000) / RATE

@@ -8,7 +8,7 @@ from scipy import signal
 
 import ancf
 import catenary_stand_in as stand_in
-from ancf.catenary.passing import (
+from ancf.catenary.answers.passing import (
     dropper_forces,
     dropper_places,
     droppers_in_window,
@@ -18,8 +18,8 @@ from ancf.catenary.passing import (
     uplift_at_supports,
     uplift_in_window,
 )
-from ancf.catenary.signals import Butterworth
-from ancf.catenary.statistics import statistics
+from ancf.catenary.answers.signals import Butterworth
+from ancf.catenary.answers.statistics import statistics
 
 #: Track interval that is evaluated, m, and its supports: two spans of 60 m.
 WINDOW, NUMBERS = (240.0, 360.0), (5, 6, 7)

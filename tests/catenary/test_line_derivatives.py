@@ -10,8 +10,8 @@ import pytest
 import ancf
 from ancf import catenary
 from ancf.catenary.derivatives import Linearised, parameters
-from ancf.catenary.file import parse_line
-from ancf.catenary.mesh import Mesh
+from ancf.catenary.forms.mesh import Mesh
+from ancf.catenary.lines.file import parse_line
 from ancf.catenary.rest import assemble
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "droppers_line.toml"

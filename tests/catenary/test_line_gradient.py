@@ -10,9 +10,9 @@ import pytest
 import ancf
 from ancf import catenary
 from ancf.catenary import Butterworth
-from ancf.catenary.file import parse_line
-from ancf.catenary.mesh import Mesh
-from ancf.catenary.weights import NUMBERS, of_filtered
+from ancf.catenary.answers.weights import NUMBERS, of_filtered
+from ancf.catenary.forms.mesh import Mesh
+from ancf.catenary.lines.file import parse_line
 from ancf.sensitivity.adjoint import UnsolvedError
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "droppers_line.toml"

@@ -8,8 +8,8 @@ import pytest
 
 import ancf
 from ancf import catenary
-from ancf.catenary.entries import TABLES, LineEntry
-from ancf.catenary.file import parse_track
+from ancf.catenary.lines.entries import TABLES, LineEntry
+from ancf.catenary.lines.file import parse_track
 from ancf.model.file.parameters import leaves
 from overhead_lines import TOML
 

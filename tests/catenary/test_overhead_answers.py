@@ -11,10 +11,10 @@ from scipy.sparse.linalg import spsolve
 import catenary_stand_in as stand_in
 from ancf import ModelError
 from ancf.catenary import FatigueLine, Quantity, acceptance, clamp_strains, rainflow, time_above
-from ancf.catenary.acceptance import ARC, footnote, verdict
-from ancf.catenary.clamp_strain import edge, strain_below_strip, strain_of_force
-from ancf.catenary.statistics import statistics
-from ancf.catenary.write import write_cycles
+from ancf.catenary.answers.acceptance import ARC, footnote, verdict
+from ancf.catenary.answers.clamp_strain import edge, strain_below_strip, strain_of_force
+from ancf.catenary.answers.statistics import statistics
+from ancf.catenary.answers.write import write_cycles
 
 
 @pytest.fixture(scope="module")

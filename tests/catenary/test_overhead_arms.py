@@ -10,7 +10,7 @@ from typer.testing import CliRunner
 import ancf
 from ancf import ModelError
 from ancf.catenary import Conditions, Mesh, Span, SteadyArm, arm_loads, assemble, form, read_line, verify
-from ancf.catenary.form import check
+from ancf.catenary.forms.form import check
 from overhead_lines import COARSE, LENGTHS, STAGGER, TOML, droppers, short_line
 
 G = 9.81

@@ -12,8 +12,8 @@ import pytest
 import ancf
 from ancf import catenary
 from ancf.catenary import Auxiliary, Conditions, DropperRule, Droppers, StitchWire, Wire
-from ancf.catenary.clamp_strain import edge, hanging, strain_below_strip
-from ancf.catenary.passing import dropper_forces
+from ancf.catenary.answers.clamp_strain import edge, hanging, strain_below_strip
+from ancf.catenary.answers.passing import dropper_forces
 from overhead_lines import COARSE, STEP, collector, droppers, short_line
 
 THIRD = Auxiliary(

@@ -11,10 +11,10 @@ import pytest
 
 import catenary_stand_in as stand_in
 from ancf import ModelError, catenary
-from ancf.catenary.acceptance import acceptance
+from ancf.catenary.answers.acceptance import acceptance
+from ancf.catenary.answers.kept import read_runs
+from ancf.catenary.answers.passing import dropper_forces
 from ancf.catenary.broken import chosen, told
-from ancf.catenary.kept import read_runs
-from ancf.catenary.passing import dropper_forces
 from ancf.catenary.report.comparison import pieces
 from ancf.catenary.report.content import Content
 from ancf.catenary.report.figures import FIGURES

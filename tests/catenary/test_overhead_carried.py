@@ -6,10 +6,10 @@ from dataclasses import replace
 import pytest
 
 from ancf import catenary
-from ancf.catenary.file import parse_track
-from ancf.catenary.form import check
-from ancf.catenary.line_parts import LISTS, MAY_LACK, PARTS
-from ancf.catenary.reach import without_droppers
+from ancf.catenary.forms.form import check
+from ancf.catenary.forms.reach import without_droppers
+from ancf.catenary.lines.file import parse_track
+from ancf.catenary.lines.line_parts import LISTS, MAY_LACK, PARTS
 from ancf.errors import ModelError
 from overhead_lines import COARSE, LENGTHS, STEP, TOML, collector, short_line
 

@@ -9,7 +9,7 @@ import pytest
 import ancf
 from ancf import ModelError, catenary
 from ancf.catenary import Conditions, Mesh, Route, Span
-from ancf.catenary.passing import dropper_forces
+from ancf.catenary.answers.passing import dropper_forces
 from ancf.catenary.report.marks import clear
 from overhead_lines import COARSE, STEP, collector, droppers, short_line
 

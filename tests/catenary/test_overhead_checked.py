@@ -11,7 +11,7 @@ from typer.testing import CliRunner
 from ancf import ModelError
 from ancf.catenary import Rayleigh, Route, SteadyArm, form, read_line, run
 from ancf.catenary.checked import at_rest
-from ancf.catenary.fittings import Droppers
+from ancf.catenary.lines.fittings import Droppers
 from ancf.cli.app import app
 from overhead_lines import COARSE, STEP, TOML, collector, short_line
 

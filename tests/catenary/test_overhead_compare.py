@@ -9,7 +9,7 @@ import pytest
 
 import catenary_stand_in as stand_in
 from ancf.catenary import Quantity, read_run, statistics, write_run
-from ancf.catenary.kept import _numbered, read_runs
+from ancf.catenary.answers.kept import _numbered, read_runs
 from ancf.catenary.report.build import _box
 from ancf.catenary.report.comparison import differences, write_comparison, write_table
 from ancf.catenary.report.sweep import verdict

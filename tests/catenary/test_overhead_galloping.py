@@ -26,7 +26,7 @@ from ancf.catenary import (
     galloping,
     read_line,
 )
-from ancf.catenary.galloping import lift_law, said, slope_at
+from ancf.catenary.lines.galloping import lift_law, said, slope_at
 from overhead_lines import TOML, short_line
 
 LENGTH, ALPHA = 40.0, 0.05

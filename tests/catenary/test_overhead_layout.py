@@ -22,7 +22,7 @@ from ancf.catenary import (
     statistics,
     verify,
 )
-from ancf.catenary.form import check
+from ancf.catenary.forms.form import check
 from overhead_lines import COARSE, LENGTHS, STAGGER, STEP, collector, droppers, short_line
 
 G = 9.81

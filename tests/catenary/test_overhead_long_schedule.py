@@ -9,8 +9,8 @@ import pytest
 
 from ancf import catenary
 from ancf.catenary import Auxiliary, DropperRule, Droppers, Wire
-from ancf.catenary.long_schedule import long_rows, save_long_schedule
-from ancf.catenary.schedule import LONG_COLUMNS
+from ancf.catenary.forms.long_schedule import long_rows, save_long_schedule
+from ancf.catenary.forms.schedule import LONG_COLUMNS
 from ancf.cli.catenary import show_form
 from overhead_lines import COARSE, LENGTHS, TOML, short_line
 

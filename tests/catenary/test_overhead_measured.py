@@ -20,8 +20,8 @@ from ancf.catenary import (
     pantographs,
     read_measuring_head,
 )
-from ancf.catenary.identify import _slopes
-from ancf.catenary.response_file import read_response
+from ancf.catenary.vehicles.identify import _slopes
+from ancf.catenary.vehicles.response_file import read_response
 from ancf.cli.app import app
 
 run_module = importlib.import_module("ancf.catenary.run")

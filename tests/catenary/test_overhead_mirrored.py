@@ -10,8 +10,8 @@ import pytest
 
 from ancf import catenary
 from ancf.catenary import Conditions, Span, SteadyArm
-from ancf.catenary.along_track import curve_pull
-from ancf.catenary.first_guess import first_guess
+from ancf.catenary.forms.along_track import curve_pull
+from ancf.catenary.forms.first_guess import first_guess
 from overhead_lines import COARSE, STEP, collector, droppers, short_line
 
 ARMS = {

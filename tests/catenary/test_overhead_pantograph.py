@@ -11,9 +11,9 @@ from scipy.integrate import solve_ivp
 import ancf
 from ancf import catenary
 from ancf.catenary.collectors import Touch, put_pantograph
-from ancf.catenary.roof import Track, roofs
-from ancf.catenary.travel import make_travel
 from ancf.catenary.underside import checked_underside, profiles, read_underside
+from ancf.catenary.vehicles.roof import Track, roofs
+from ancf.catenary.vehicles.travel import make_travel
 from ancf.errors import ModelError
 
 SPEED, SECONDS, STIFF = 20.0, 0.5, 50e3  # m/s, s, N/m

@@ -9,10 +9,10 @@ import pytest
 from typer.testing import CliRunner
 
 from ancf.catenary import Conditions, Route, form, read_line, run, statistics
-from ancf.catenary.kept import read_run
+from ancf.catenary.answers.kept import read_run
+from ancf.catenary.answers.state import state, tensions, titled
+from ancf.catenary.answers.write import summary, write_json, write_run
 from ancf.catenary.report import write_reports
-from ancf.catenary.state import state, tensions, titled
-from ancf.catenary.write import summary, write_json, write_run
 from ancf.cli.app import app
 from overhead_lines import COARSE, STEP, TOML, collector, short_line
 

@@ -6,8 +6,8 @@ import pytest
 import ancf
 from ancf import catenary
 from ancf.catenary import sleeping
+from ancf.catenary.lines.stitch import StitchWire
 from ancf.catenary.rest import assemble, form
-from ancf.catenary.stitch import StitchWire
 from ancf.solvers.sleeping import parts as far_parts
 from ancf.solvers.sleeping.parts import Matrices, cables_of, in_order, parts_of, reduced, shapes_of
 from ancf.system.system import System

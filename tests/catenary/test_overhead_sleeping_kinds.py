@@ -11,10 +11,10 @@ import pytest
 
 from ancf import catenary
 from ancf.catenary import Conditions, Droppers, sleeping
-from ancf.catenary.auxiliary import Auxiliary
+from ancf.catenary.lines.auxiliary import Auxiliary
+from ancf.catenary.lines.span import DropperRule
+from ancf.catenary.lines.stitch import StitchWire
 from ancf.catenary.rest import assemble, form
-from ancf.catenary.span import DropperRule
-from ancf.catenary.stitch import StitchWire
 from ancf.solvers.sleeping.parts import Matrices, cables_of, parts_of
 from ancf.system.system import System
 from overhead_lines import COARSE, STEP, collector, short_line

@@ -10,8 +10,8 @@ import pytest
 import ancf
 from ancf import catenary
 from ancf.catenary import Mesh, Rayleigh, sleeping
+from ancf.catenary.lines.stitch import StitchWire
 from ancf.catenary.rest import assemble, form
-from ancf.catenary.stitch import StitchWire
 from ancf.solvers.status import SLOW, STEPS
 from ancf.system.far import ASLEEP, CALM, CALMED
 from helpers import some

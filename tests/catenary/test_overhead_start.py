@@ -10,7 +10,7 @@ from ancf.catenary.cautions import before
 from ancf.catenary.chain import add_chain, add_stages
 from ancf.catenary.collectors import Touch
 from ancf.catenary.plan import Door, make_plan
-from ancf.catenary.travel import make_travel
+from ancf.catenary.vehicles.travel import make_travel
 from overhead_lines import COARSE, STEP, collector, short_line
 
 

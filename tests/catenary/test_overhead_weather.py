@@ -19,7 +19,7 @@ from ancf.catenary import (
     height_errors,
     run,
 )
-from ancf.catenary.clamp_strain import edge, hanging, strain_below_strip
+from ancf.catenary.answers.clamp_strain import edge, hanging, strain_below_strip
 from overhead_lines import COARSE, STEP, collector, short_line
 
 

@@ -4,8 +4,8 @@ import tomllib
 
 import pytest
 
-from ancf.catenary.entries import LineEntry, PantographEntry
-from ancf.catenary.measuring_file import MeasuringEntry
+from ancf.catenary.answers.measuring_file import MeasuringEntry
+from ancf.catenary.lines.entries import LineEntry, PantographEntry
 from ancf.design.calibration_file import CalibrationEntry
 from ancf.design.file import StudyEntry
 from ancf.design.optimisation_file import OptimisationEntry

@@ -8,7 +8,7 @@ import pytest
 
 import ancf
 from ancf import catenary
-from ancf.catenary.mesh import Mesh
+from ancf.catenary.forms.mesh import Mesh
 from ancf.cli.optimise import optimise_file
 from ancf.design.optimisation_file import read_optimisation
 

@@ -5,8 +5,8 @@ import tomllib
 import pytest
 
 import ancf
-from ancf.catenary.entries import TABLES, LineEntry
-from ancf.catenary.file import parse_track
+from ancf.catenary.lines.entries import TABLES, LineEntry
+from ancf.catenary.lines.file import parse_track
 from ancf.model.file import parse_study
 from ancf.model.file.entries import EquilibriumEntry, FileEntry, SimulationEntry
 from ancf.model.file.messages import elsewhere

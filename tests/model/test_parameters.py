@@ -8,7 +8,7 @@ import pytest
 
 import ancf
 from ancf import catenary
-from ancf.catenary.file import parse_line
+from ancf.catenary.lines.file import parse_line
 from ancf.model.file import parse_study, read_study, schema
 from ancf.model.file.paths import assignments, changed, found
 

@@ -82,7 +82,7 @@ displacement = {one if vector else f"[0, 0, {one}]"}
 
 @pytest.mark.parametrize("unit", ["kN", "deg", "m/s"])
 def test_motions_of_roofs(unit):
-    from ancf.catenary.roof import roofs
+    from ancf.catenary.vehicles.roof import roofs
 
     with pytest.raises(ancf.ModelError, match=r"run\.roof\.up: .* must be in m "):
         roofs(ancf.Series([0.0, 1.0], [0.0, 1e-3], unit=unit), 1)
@@ -90,7 +90,7 @@ def test_motions_of_roofs(unit):
 
 @pytest.mark.parametrize("unit", ["rad/s", "rpm", "s"])
 def test_responses_over_something_else_than_frequencies(tmp_path, unit):
-    from ancf.catenary.response_file import read_response
+    from ancf.catenary.vehicles.response_file import read_response
 
     path = tmp_path / "response.csv"
     path.write_text(f"frequency [{unit}],real,imag\n1,2,3\n2,3,4\n", encoding="utf-8")

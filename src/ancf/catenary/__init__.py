@@ -3,50 +3,50 @@
 from __future__ import annotations
 
 from ..model.keywords import guard
-from .acceptance import acceptance, time_above
-from .arm_loads import ArmLoad, arm_loads
-from .auxiliary import Auxiliary, LongDroppers
-from .catalogue import line_file, line_names, read_line
-from .clamp_strain import ClampStrain, clamp_strains
-from .conditions import Conditions
-from .cycles import Cycles, FatigueLine, rainflow
+from .answers.acceptance import acceptance, time_above
+from .answers.clamp_strain import ClampStrain, clamp_strains
+from .answers.cycles import Cycles, FatigueLine, rainflow
+from .answers.kept import Kept, read_run
+from .answers.measuring import Measured, MeasuringHead, measure
+from .answers.measuring_file import read_measuring_head
+from .answers.quantity import Quantity
+from .answers.references import Reference, reference_case, reference_names, rows
+from .answers.run_data import Recording, Run
+from .answers.sheets import tell
+from .answers.signals import Butterworth
+from .answers.statistics import Statistics, statistics
+from .answers.write import write_run
 from .derivatives import slopes
 from .elasticity import Elasticity, elasticity
-from .fittings import DropperErrors, Droppers, Load, SteadyArm, Tensioner
-from .form import Form
-from .galloping import Galloping, galloping
+from .forms.arm_loads import ArmLoad, arm_loads
+from .forms.form import Form
+from .forms.irregular import dropper_errors, height_errors
+from .forms.mesh import Mesh
+from .forms.route_form import RouteForm
 from .gradient import gradient
-from .identify import Identified, dynamic_stiffness, identify_pantograph
-from .irregular import dropper_errors, height_errors
-from .kept import Kept, read_run
-from .line import Line
-from .measuring import Measured, MeasuringHead, measure
-from .measuring_file import read_measuring_head
-from .mesh import Mesh
+from .lines.auxiliary import Auxiliary, LongDroppers
+from .lines.catalogue import line_file, line_names, read_line
+from .lines.conditions import Conditions
+from .lines.fittings import DropperErrors, Droppers, Load, SteadyArm, Tensioner
+from .lines.galloping import Galloping, galloping
+from .lines.line import Line
+from .lines.route import Route
+from .lines.span import DropperRule, Span
+from .lines.stitch import StitchWire
+from .lines.wire import Rayleigh, Wire
+from .lines.wires import WireType, wire, wires
 from .opened import Overhead, assemble
-from .pantograph import Pantograph, find_pantograph, pantographs, read_pantograph
-from .quantity import Quantity
-from .references import Reference, reference_case, reference_names, rows
 from .report import write_report
 from .rest import form
-from .route import Route
-from .route_form import RouteForm
 from .run import run
-from .run_data import Recording, Run
-from .sheets import tell
-from .signals import Butterworth
-from .span import DropperRule, Span
-from .statistics import Statistics, statistics
 from .steps import LineStepper, stepper
-from .stitch import StitchWire
 from .touching import Touching
 from .travelling import add_pantograph
 from .underside import random_underside, read_underside
 from .validate import reference_run, write_validation
+from .vehicles.identify import Identified, dynamic_stiffness, identify_pantograph
+from .vehicles.pantograph import Pantograph, find_pantograph, pantographs, read_pantograph
 from .verify import Verified, verify
-from .wire import Rayleigh, Wire
-from .wires import WireType, wire, wires
-from .write import write_run
 
 __all__ = [
     "ArmLoad",

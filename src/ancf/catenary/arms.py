@@ -14,8 +14,8 @@ from ..model.bodies import PointMass
 from ..model.connections import Spring
 from ..model.points import Point
 from ..model.supports import Hold
-from .fittings import SteadyArm, hangs
-from .form import Form
+from .forms.form import Form
+from .lines.fittings import SteadyArm, hangs
 
 #: Length of a spring to a fixed point, m: long enough that its force keeps its direction, and unstretched.
 LONG = 20.0

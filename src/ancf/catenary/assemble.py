@@ -15,13 +15,13 @@ from ..model.bodies import PointMass
 from ..model.connections import Spring
 from ..model.points import Point
 from ..model.supports import Hold, Pin
-from .along_track import add_sideways, add_wind, curve_pull
 from .arms import LONG, add_arms, add_long_spring, add_mass
-from .form import Form
-from .galloping import add_lift
-from .line import Line
-from .route_form import AnyForm
-from .shape import Strung, on_track
+from .forms.along_track import add_sideways, add_wind, curve_pull
+from .forms.form import Form
+from .forms.route_form import AnyForm
+from .forms.shape import Strung, on_track
+from .lines.galloping import add_lift
+from .lines.line import Line
 
 #: More than any count.
 FAR = 10**9

@@ -10,8 +10,8 @@ from ..model import checks
 
 if TYPE_CHECKING:
     from .assemble import Assembled
-    from .line import Line
-    from .route import Route
+    from .lines.line import Line
+    from .lines.route import Route
 
 
 def labels(line: Line | Route) -> list[str]:

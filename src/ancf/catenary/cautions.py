@@ -7,16 +7,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .doubts import doubts
-from .galloping import said as galloping
+from .answers.signals import CUT_OFF, at_zero
+from .answers.statistics import MEAN_FORCE_LAW, mean_force_target
+from .forms.reach import without_droppers
+from .lines.doubts import doubts
+from .lines.galloping import said as galloping
 from .plan import RUN_IN, Plan
-from .reach import without_droppers
-from .signals import CUT_OFF, at_zero
 from .sleeping import REDUCED
-from .statistics import MEAN_FORCE_LAW, mean_force_target
 
 if TYPE_CHECKING:
-    from .run_data import Run
+    from .answers.run_data import Run
 
 #: Share of the wave speed from which on the forces grow without limit.
 NEAR = 0.9

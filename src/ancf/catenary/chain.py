@@ -9,10 +9,10 @@ from typing import Any, TypeVar
 from ..errors import ModelError
 from ..model.bodies import PointMass
 from ..model.model import Model
-from .pantograph import Pantograph
-from .roof import RoofMotion, Track
-from .stage import Stage
-from .travel import Travel
+from .vehicles.pantograph import Pantograph
+from .vehicles.roof import RoofMotion, Track
+from .vehicles.stage import Stage
+from .vehicles.travel import Travel
 
 #: Nominal height of the wire at a track position, m.
 Level = Callable[[float], Any]

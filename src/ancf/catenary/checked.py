@@ -8,13 +8,13 @@ import numpy as np
 
 from ..errors import ModelError
 from .arms import check_hinged, on_arm
-from .doubts import doubts
-from .form import Form
-from .line import Line
+from .forms.form import Form
+from .forms.reach import STRIP
+from .lines.doubts import doubts
+from .lines.line import Line
+from .lines.route import Route
 from .plan import RAISED
-from .reach import STRIP
 from .rest import form
-from .route import Route
 
 #: Spans of a line up to which its form is found to be looked at; that of 200 takes some seconds.
 MOST_FORMED = 200

@@ -14,9 +14,9 @@ from ..model.contact import Contact
 from ..model.joints import Slide
 from ..model.model import Model
 from .chain import APART, Chain, Level, add_chain, add_stages, numbered
-from .pantograph import Pantograph
-from .roof import RoofMotion
-from .travel import Travel
+from .vehicles.pantograph import Pantograph
+from .vehicles.roof import RoofMotion
+from .vehicles.travel import Travel
 
 CONTACTS = ("penalty", "joint")
 #: Contact stiffness of EN 50318, N/m.

@@ -17,19 +17,19 @@ from ..model import checks
 from ..model.points import Point
 from ..sensitivity.parameters import Parameter
 from ..system.beside import BODIES, SPRINGS, Acts
+from .answers.passing import check_run as check_run_of
+from .answers.passing import in_window, uplift_in_window
+from .answers.run_data import RunSlopes
+from .answers.signals import Butterworth, filter_of, sample_rate
+from .answers.weights import MM, OF_BANDS, extreme_of, of_filtered
 from .assemble import Assembled
 from .broken import place_of
-from .form import Form
-from .passing import check_run as check_run_of
-from .passing import in_window, uplift_in_window
-from .run_data import RunSlopes
-from .signals import Butterworth, filter_of, sample_rate
+from .forms.form import Form
 from .twin import second_supports
-from .weights import MM, OF_BANDS, extreme_of, of_filtered
 
 if TYPE_CHECKING:
+    from .answers.run_data import Run
     from .plan import Plan
-    from .run_data import Run
 
 WHERE = "run.sensitivities"
 #: What lengths of droppers act on: these, their clamps and the weight of both.

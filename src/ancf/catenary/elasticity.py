@@ -19,12 +19,12 @@ from ..files import writing
 from ..model import checks
 from ..model.points import Point
 from .assemble import Assembled
-from .form import Form
-from .line import Line
-from .mesh import Mesh
+from .forms.form import Form
+from .forms.mesh import Mesh
+from .forms.route_form import AnyForm, RouteForm
+from .lines.line import Line
+from .lines.route import Route
 from .rest import assemble, form, track_of
-from .route import Route
-from .route_form import AnyForm, RouteForm
 from .told import Told
 
 

@@ -22,23 +22,23 @@ from ..sensitivity.adjoint_joints import adjoint_of
 from ..sensitivity.answers import Face
 from ..sensitivity.objective import Key, touched_by
 from ..system.sensors import listing
+from .answers.passing import check_run as check_pantograph
+from .answers.run_data import Run
+from .answers.signals import Butterworth, filter_of
+from .answers.weights import MM, NUMBERS, Weights, weights_of
 from .assemble import Assembled
 from .broken import broken_of, labels
 from .collectors import Collector
 from .derivatives import check_run, slopes
-from .line import Line
-from .mesh import Mesh
-from .pantograph import Pantograph
-from .passing import check_run as check_pantograph
+from .forms.mesh import Mesh
+from .forms.route_form import AnyForm
+from .lines.line import Line
 from .plan import Plan
 from .ready import STEP, Ready, ready
 from .recorded import recorded
-from .route_form import AnyForm
 from .run import Speed, planned, relaxed, settings_of, simulated
-from .run_data import Run
-from .signals import Butterworth, filter_of
 from .twin import second_supports
-from .weights import MM, NUMBERS, Weights, weights_of
+from .vehicles.pantograph import Pantograph
 
 WHERE = "gradient"
 SUPPORT = "support"

@@ -6,15 +6,15 @@ from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 
+from .answers.run_data import Run
 from .assemble import Assembled
 from .collectors import Collector
-from .mesh import Mesh
-from .pantograph import Pantograph
+from .forms.mesh import Mesh
+from .forms.route_form import AnyForm
 from .rest import assemble as assembled
-from .route_form import AnyForm
 from .run import run
-from .run_data import Run
 from .travelling import add_pantograph
+from .vehicles.pantograph import Pantograph
 
 
 @dataclass(slots=True)

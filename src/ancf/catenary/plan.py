@@ -15,18 +15,18 @@ from ..errors import ModelError
 from ..model import checks
 from .assemble import Assembled
 from .broken import chosen
-from .catalogue import read_line
 from .collectors import Touch
-from .form import Form
-from .line import Line
-from .mesh import Mesh
-from .pantograph import Pantograph, find_pantograph
+from .forms.form import Form
+from .forms.mesh import Mesh
+from .forms.route_form import AnyForm, RouteForm
+from .lines.catalogue import read_line
+from .lines.line import Line
+from .lines.route import Route
 from .rest import assemble, form
-from .roof import RoofMotion, roofs
-from .route import Route
-from .route_form import AnyForm, RouteForm
-from .travel import Travel
 from .underside import checked_underside
+from .vehicles.pantograph import Pantograph, find_pantograph
+from .vehicles.roof import RoofMotion, roofs
+from .vehicles.travel import Travel
 
 #: Where the last pantograph starts, as a share of the first span.
 START = 1.0 / 3.0

@@ -10,12 +10,12 @@ import ancf
 
 from .. import garbage
 from ..arrays import FloatArray
+from .answers.run_data import Recording, Run
 from .assemble import Assembled
 from .broken import broken_of
 from .collectors import Collector
+from .forms.route_form import AnyForm
 from .ready import Ready
-from .route_form import AnyForm
-from .run_data import Recording, Run
 from .twin import second_supports
 
 

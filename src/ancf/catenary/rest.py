@@ -10,19 +10,19 @@ from typing import overload
 from .. import garbage
 from ..errors import ModelError
 from ..model.checks import shown
-from .arm_loads import pushed
+from .answers.state import changes
 from .assemble import Assembled, assembled
-from .catalogue import read_line
-from .conditions import Conditions
-from .form import Form, check, check_lengths, design
-from .irregular import with_errors
-from .line import Line
-from .mesh import Mesh
-from .route import Route
-from .route_form import AnyForm, RouteForm
+from .forms.arm_loads import pushed
+from .forms.form import Form, check, check_lengths, design
+from .forms.irregular import with_errors
+from .forms.mesh import Mesh
+from .forms.route_form import AnyForm, RouteForm
+from .lines.catalogue import read_line
+from .lines.conditions import Conditions
+from .lines.line import Line
+from .lines.route import Route
 from .route_model import assembled_route
 from .settle import as_built, in_conditions
-from .state import changes
 from .twin import design_twin
 
 
@@ -127,7 +127,7 @@ def check_track(line: Line | Route) -> list[str]:
     Returns
     -------
     list of str
-        Warnings, see :func:`ancf.catenary.form.check`.
+        Warnings, see :func:`ancf.catenary.forms.form.check`.
 
     Raises
     ------

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import ancf
 
-from .along_track import add_wind
 from .assemble import Assembled, assembled
-from .route_form import RouteForm
+from .forms.along_track import add_wind
+from .forms.route_form import RouteForm
 
 
 def assembled_route(found: RouteForm) -> Assembled:

@@ -16,22 +16,22 @@ from ..control.delay import Delayed
 from ..errors import ModelError
 from ..model import checks
 from . import cautions, sleeping
+from .answers.run_data import Run
 from .assemble import Assembled
 from .collectors import Touch
 from .derivatives import check_run, records
-from .line import Line
-from .mesh import Mesh
-from .pantograph import Pantograph
+from .forms.mesh import Mesh
+from .forms.route_form import AnyForm
+from .lines.line import Line
+from .lines.route import Route
 from .plan import Door, Plan, formed, make_plan
 from .ready import STEP, Ready, ready
 from .recorded import recorded
 from .rest import form
-from .route import Route
-from .route_form import AnyForm
-from .run_data import Run
 from .touching import Watched
-from .travel import make_travel
 from .twin import second_supports
+from .vehicles.pantograph import Pantograph
+from .vehicles.travel import make_travel
 
 #: Mesh and step of the trial run that finds a mean height.
 TRIAL, TRIAL_STEP = Mesh(contact=2.0, messenger=3.0), 2e-3

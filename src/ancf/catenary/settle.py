@@ -13,11 +13,11 @@ from ..arrays import BoolArray, FloatArray
 from ..errors import ModelError, SolveError
 from .arms import hinges
 from .assemble import Assembled, assembled
-from .auxiliary import LongDroppers
-from .conditions import Conditions, expansion, warmer
-from .form import Form
-from .line import Line
-from .shape import Strung, WireShape
+from .forms.form import Form
+from .forms.shape import Strung, WireShape
+from .lines.auxiliary import LongDroppers
+from .lines.conditions import Conditions, expansion, warmer
+from .lines.line import Line
 
 #: Largest motion of a node from one equilibrium to the next at which the line has come to rest, m.
 TOLERANCE = 1e-6

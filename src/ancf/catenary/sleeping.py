@@ -23,8 +23,8 @@ from ..solvers.sleeping.arrays import FarPlan
 from ..solvers.sleeping.spans import FarSpans
 from ..system.nodes import node_of
 from ..system.system import System
+from .answers.signals import CUT_OFF
 from .assemble import Assembled
-from .signals import CUT_OFF
 
 #: Modes are taken up to this multiple of the cut-off of what is evaluated.
 BEYOND = 2.5

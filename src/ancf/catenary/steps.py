@@ -13,16 +13,16 @@ from ..preparation import method_of, prepared
 from . import sleeping
 from .assemble import Assembled
 from .collectors import Touch
-from .line import Line
-from .mesh import Mesh
-from .pantograph import Pantograph
+from .forms.mesh import Mesh
+from .forms.route_form import AnyForm
+from .lines.line import Line
+from .lines.route import Route
 from .plan import Door, formed, make_plan
 from .ready import STEP, Ready, ready
-from .route import Route
-from .route_form import AnyForm
 from .run import Speed, relaxed
 from .touching import Touching, touching
-from .travel import make_travel
+from .vehicles.pantograph import Pantograph
+from .vehicles.travel import make_travel
 
 WHERE = "catenary.stepper"
 

@@ -11,12 +11,12 @@ from ..model import checks
 from .assemble import MADE, Assembled
 from .chain import Level
 from .collectors import Collector, Touch, put_pantograph
-from .line import Line
-from .pantograph import Pantograph, find_pantograph
-from .roof import roofs
-from .route import Route
-from .travel import make_travel
+from .lines.line import Line
+from .lines.route import Route
 from .underside import checked_underside, profiles
+from .vehicles.pantograph import Pantograph, find_pantograph
+from .vehicles.roof import roofs
+from .vehicles.travel import make_travel
 
 
 def add_pantograph(

@@ -16,12 +16,12 @@ import numpy as np
 from ..arrays import FloatArray
 from ..errors import SolveError
 from ..model.points import Point
-from .fittings import NO_DROPPERS, Droppers, SteadyArm
-from .form import Form, design, unstretched
-from .line import Line
-from .mesh import Mesh, Nodes
+from .forms.form import Form, design, unstretched
+from .forms.mesh import Mesh, Nodes
+from .forms.shape import WireShape
+from .lines.fittings import NO_DROPPERS, Droppers, SteadyArm
+from .lines.line import Line
 from .settle import mounted
-from .shape import WireShape
 
 #: Largest error of a height at a clamp, m, and rounds in which it has to be reached.
 TOLERANCE, MOST_ROUNDS = 1e-5, 20
@@ -35,7 +35,7 @@ def design_twin(line: Line, mesh: Mesh | None) -> Form:
     Raises
     ------
     ModelError
-        As :func:`ancf.catenary.form.design`.
+        As :func:`ancf.catenary.forms.form.design`.
     SolveError
         The heights of the droppers are not found.
 

@@ -12,10 +12,10 @@ from ..arrays import FloatArray
 from ..errors import ModelError
 from ..model import checks
 from .assemble import Assembled
-from .csv_table import read_table
-from .irregular import random_waves
-from .line import Line
-from .route import Route
+from .forms.irregular import random_waves
+from .lines.csv_table import read_table
+from .lines.line import Line
+from .lines.route import Route
 
 #: Rows of a random underside for each of its shortest waves.
 ROWS = 16

@@ -10,15 +10,22 @@ from .._version import __version__
 from ..errors import ModelError
 from ..model import checks
 from ..model.checks import positive
+from .answers.references import (
+    REFERENCE,
+    SECOND_FILTER,
+    Reference,
+    filter_note,
+    reference_case,
+    second_reading,
+)
+from .answers.statistics import Statistics, statistics
+from .answers.write import summary, write_json, write_run
 from .elasticity import elasticity_beside
-from .references import REFERENCE, SECOND_FILTER, Reference, filter_note, reference_case, second_reading
-from .statistics import Statistics, statistics
-from .write import summary, write_json, write_run
 
 if TYPE_CHECKING:
-    from .line import Line
-    from .quantity import Quantity
-    from .run_data import Run
+    from .answers.quantity import Quantity
+    from .answers.run_data import Run
+    from .lines.line import Line
 
 
 def middle_spans(line: Line, count: int) -> tuple[float, float]:
@@ -58,8 +65,8 @@ def reference_run(case: str, speed_kmh: float, progress: Callable[[Any], None] |
     """
     chosen = reference_case(case)
     speed = positive(speed_kmh, "speed") / 3.6
-    from .catalogue import read_line
-    from .line import Line
+    from .lines.catalogue import read_line
+    from .lines.line import Line
     from .run import run
 
     line = read_line(chosen.line)

@@ -13,8 +13,8 @@ from ..errors import ModelError
 from ..model import checks
 from ..model.points import Point
 from .assemble import MADE, Assembled
-from .route_form import RouteForm
-from .shape import Strung
+from .forms.route_form import RouteForm
+from .forms.shape import Strung
 
 
 @dataclass(frozen=True, slots=True)

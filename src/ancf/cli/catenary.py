@@ -12,16 +12,16 @@ from .screen import Screen, console, table
 
 if TYPE_CHECKING:
     from ..catenary import Elasticity, Line, Route
-    from ..catenary.route_form import AnyForm
-    from ..catenary.schedule import LongRow
+    from ..catenary.forms.route_form import AnyForm
+    from ..catenary.forms.schedule import LongRow
 
 
 def show_form(name: str, output: Path | None, quiet: bool = False, given: list[str] | None = None) -> None:
     """Find the form of a line and print its droppers and arms; with a folder also write both there."""
     from .. import catenary
-    from ..catenary.arm_loads import write
-    from ..catenary.galloping import said
-    from ..catenary.long_schedule import long_rows, save_long_schedule
+    from ..catenary.forms.arm_loads import write
+    from ..catenary.forms.long_schedule import long_rows, save_long_schedule
+    from ..catenary.lines.galloping import said
 
     line = catenary.read_line(name, assignments(given))
     names = ("schedule.csv", "long_schedule.csv", "arms.csv", "form.png")
@@ -66,8 +66,8 @@ def show_elasticity(
 
 
 def _print_schedule(line: Line | Route, found: AnyForm) -> None:
-    from ..catenary.schedule import texts
-    from ..catenary.state import at_rest, state
+    from ..catenary.answers.state import at_rest, state
+    from ..catenary.forms.schedule import texts
 
     heads = ("span", "dropper", "at [m]", "track [m]", "length [mm]", "unstretched [mm]")
     shown = table(*heads, "load at the lower end [N]", "wire height [mm]", "messenger height [mm]")
@@ -88,7 +88,7 @@ def _print_schedule(line: Line | Route, found: AnyForm) -> None:
 
 
 def _print_long_schedule(long: list[LongRow]) -> None:
-    from ..catenary.schedule import texts
+    from ..catenary.forms.schedule import texts
 
     heads = ("span", "long dropper", "at [m]", "track [m]", "length [mm]", "unstretched [mm]")
     shown = table(*heads, "load at the lower end [N]")
@@ -100,7 +100,7 @@ def _print_long_schedule(long: list[LongRow]) -> None:
 
 
 def _print_arms(found: AnyForm) -> None:
-    from ..catenary.arm_loads import arm_loads, texts
+    from ..catenary.forms.arm_loads import arm_loads, texts
 
     heads = ("support", "track [m]", "by the curve [N]", "by the stagger [N]", "to the left [N]", "up [N]")
     shown = table(*heads, "hinge", "arm")
@@ -110,7 +110,7 @@ def _print_arms(found: AnyForm) -> None:
 
 
 def _print_elasticity(line: Line | Route, found: Elasticity) -> None:
-    from ..catenary.state import at_rest, state
+    from ..catenary.answers.state import at_rest, state
 
     shown = table("at [m]", *(f"{force:g} N [mm/N]" for force in found.force))
     for x, values in zip(found.x, found.value.T, strict=True):

@@ -22,8 +22,8 @@ def compare_runs(folders: list[Path], output: Path, to: str | None = None, quiet
         A folder holds no run, a package is missing, or the folder cannot be written.
 
     """
-    from ..catenary.kept import read_runs
-    from ..catenary.quantity import shown
+    from ..catenary.answers.kept import read_runs
+    from ..catenary.answers.quantity import shown
     from ..catenary.report.comparison import differences, heads, told, write_comparison, write_table
     from ..viz.printed import chosen
     from ..viz.style import require_matplotlib

@@ -27,8 +27,8 @@ def identify(
         The table is wrong, or an option.
 
     """
-    from ..catenary.identify import KINDS, identify_pantograph
-    from ..catenary.response_file import read_response, write_pantograph
+    from ..catenary.vehicles.identify import KINDS, identify_pantograph
+    from ..catenary.vehicles.response_file import read_response, write_pantograph
     from ..model import checks
 
     checks.choice(kind, "--kind", tuple(KINDS))

@@ -21,9 +21,9 @@ FILES = [
 ]
 
 if TYPE_CHECKING:
-    from ..catenary.measuring import Measured, MeasuringHead
-    from ..catenary.run_data import Run
-    from ..catenary.statistics import Statistics
+    from ..catenary.answers.measuring import Measured, MeasuringHead
+    from ..catenary.answers.run_data import Run
+    from ..catenary.answers.statistics import Statistics
 
 
 def run_line(
@@ -47,9 +47,9 @@ def run_line(
         Something given is wrong, or matplotlib is missing for the report; nothing was computed.
 
     """
-    from ..catenary.catalogue import read_line
-    from ..catenary.measuring_file import read_measuring_head
-    from ..catenary.mesh import Mesh
+    from ..catenary.answers.measuring_file import read_measuring_head
+    from ..catenary.forms.mesh import Mesh
+    from ..catenary.lines.catalogue import read_line
     from ..catenary.ready import STEP
     from ..catenary.run import run
     from ..model.checks import positive
@@ -117,8 +117,8 @@ def _kept(results: Path | None) -> Iterator[None]:
 
 def _read(done: Run, head: MeasuringHead | None) -> tuple[list[Statistics], list[Measured]]:
     """Statistics of each pantograph, and what each would have measured."""
-    from ..catenary.measuring import measure
-    from ..catenary.statistics import statistics
+    from ..catenary.answers.measuring import measure
+    from ..catenary.answers.statistics import statistics
 
     every = range(len(done.recordings))
     measured = [] if head is None else [measure(done, k, head) for k in every]
@@ -128,8 +128,8 @@ def _read(done: Run, head: MeasuringHead | None) -> tuple[list[Statistics], list
 def _written(
     done: Run, folder: Path, formats: tuple[str, ...], found: list[Statistics], measured: list[Measured]
 ) -> list[Path]:
-    from ..catenary.measuring_file import write_measured
-    from ..catenary.write import summary, write_json, write_run
+    from ..catenary.answers.measuring_file import write_measured
+    from ..catenary.answers.write import summary, write_json, write_run
 
     files = [write_json(summary(done, found), folder / "run.json"), *write_run(done, folder, found)]
     files += [write_measured(one, folder / f"measured_{k + 1}.csv") for k, one in enumerate(measured)]
@@ -145,11 +145,11 @@ def _written(
 
 def show(done: Run, found: Sequence[Statistics] = (), measured: Sequence[Measured] = ()) -> None:
     """Print the statistics of each pantograph, and what it would have measured."""
-    from ..catenary.acceptance import acceptance, footnote, verdict
+    from ..catenary.answers.acceptance import acceptance, footnote, verdict
+    from ..catenary.answers.measuring_file import compared
+    from ..catenary.answers.state import at_rest, state
+    from ..catenary.answers.table import table
     from ..catenary.broken import told
-    from ..catenary.measuring_file import compared
-    from ..catenary.state import at_rest, state
-    from ..catenary.table import table
 
     screen = console()
     found_form = done.form

@@ -88,7 +88,7 @@ def sweep_line(
 def _state(line: Line | Route, mesh: Mesh) -> list[tuple[str, str]]:
     """The conditions that all cases share, and the tensions at rest, as reports of runs have them."""
     from ..catenary import form
-    from ..catenary.state import at_rest, state
+    from ..catenary.answers.state import at_rest, state
 
     told = [("State", state(line))]
     with suppress(ModelError, SolveError):  # each case says why
@@ -104,8 +104,8 @@ def _report(
     folder: Path,
     formats: tuple[str, ...],
 ) -> list[Path]:
+    from ..catenary.answers.state import titled
     from ..catenary.report.sweep import Sweep, write_sweep
-    from ..catenary.state import titled
     from ..design.sweep import SPACING, SPEED
 
     told = names if len(set(names)) == len(names) else [f"{name} ({k + 1})" for k, name in enumerate(names)]

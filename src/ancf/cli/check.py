@@ -41,7 +41,7 @@ def check_file(path: Path, given: list[str] | None = None) -> None:
     data = read_toml(path, "model file")
     kind = kind_of(data)
     if kind == LINE:
-        from ..catenary.file import other_values
+        from ..catenary.lines.file import other_values
 
         return _check_line(path, other_values(data, assignments(given)))
     if kind not in ("", MODEL):
@@ -69,7 +69,7 @@ def _check_model(path: Path, data: dict[str, Any]) -> None:
 def _check_line(path: Path, data: dict[str, Any]) -> None:
     """Read a line, hang its wires as strings, find its form and look at that."""
     from ..catenary.checked import at_rest
-    from ..catenary.file import parse_track
+    from ..catenary.lines.file import parse_track
     from ..catenary.rest import check_track
 
     line = parse_track(data, str(path))

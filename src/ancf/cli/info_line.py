@@ -15,8 +15,8 @@ if TYPE_CHECKING:
 
 def show_line(path: Path, data: dict[str, Any]) -> None:
     """Print what a line consists of; it must fit together as strings."""
-    from ..catenary.file import parse_track
-    from ..catenary.form import check
+    from ..catenary.forms.form import check
+    from ..catenary.lines.file import parse_track
 
     line = parse_track(data, str(path))
     for part in line.parts:

@@ -46,7 +46,7 @@ def _said(path: Path, kind: str) -> str:
 
 
 def _pantograph(path: Path) -> str:
-    from ..catenary.pantograph import read_pantograph
+    from ..catenary.vehicles.pantograph import read_pantograph
 
     unit = read_pantograph(path)
     masses = "a mass" if len(unit.masses) == 1 else f"{len(unit.masses)} masses"
@@ -55,7 +55,7 @@ def _pantograph(path: Path) -> str:
 
 
 def _head(path: Path) -> str:
-    from ..catenary.measuring_file import read_measuring_head
+    from ..catenary.answers.measuring_file import read_measuring_head
 
     head = read_measuring_head(path)
     rate = "those of the run" if head.rate is None else f"{head.rate:g} in a second"

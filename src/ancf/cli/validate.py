@@ -11,8 +11,8 @@ from .output import OutputFolder
 from .screen import Screen, console
 
 if TYPE_CHECKING:
-    from ..catenary.references import Reference
-    from ..catenary.run_data import Run
+    from ..catenary.answers.references import Reference
+    from ..catenary.answers.run_data import Run
 
 
 def validate_case(
@@ -27,7 +27,7 @@ def validate_case(
         nothing was computed.
 
     """
-    from ..catenary.references import reference_case
+    from ..catenary.answers.references import reference_case
     from ..model.checks import positive
     from ..viz.style import require_matplotlib
 
@@ -71,7 +71,7 @@ def validate_groups(
         A speed, which they do not have, or a folder that cannot be written; nothing was computed.
 
     """
-    from ..catenary.table import table
+    from ..catenary.answers.table import table
 
     validate = import_module(f"..{WITHOUT_SPEED[case]}.validate", __package__)
     if speed_kmh is not None:
@@ -99,9 +99,9 @@ def validate_groups(
 
 def show(run: Run, reference: Reference) -> None:
     """Print the table of the reference's quantities."""
-    from ..catenary.references import filter_note, second_reading
-    from ..catenary.statistics import statistics
-    from ..catenary.table import table
+    from ..catenary.answers.references import filter_note, second_reading
+    from ..catenary.answers.statistics import statistics
+    from ..catenary.answers.table import table
 
     screen = console()
     rows = reference.compare(statistics(run), run.speed_kmh)

@@ -18,7 +18,7 @@ from .lines import HIGHEST, OF_FORCE, SIGMA
 if TYPE_CHECKING:
     from ..catenary import Line
     from ..catenary.derivatives import Linearised
-    from ..catenary.mesh import Mesh
+    from ..catenary.forms.mesh import Mesh
 
 #: Numbers of a run that have derivatives, by their names in formulas.
 NUMBERS = {SIGMA: "deviation", HIGHEST: "uplift", **{key: key for key in OF_FORCE}}

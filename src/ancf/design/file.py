@@ -239,7 +239,7 @@ def _case(entry: StudyEntry, path: Path, paths: dict[str, str]) -> ModelCase | L
         if entry.run is not None:
             raise ModelError("run", "has no effect on a model", "its file has [simulation]")
         return ModelCase(read_toml(path.parent / entry.model, "model file"), outputs, paths)
-    from ..catenary.catalogue import line_names, path_of
+    from ..catenary.lines.catalogue import line_names, path_of
 
     line = entry.line or ""
     file = path_of(line) if line in line_names() else path.parent / line

@@ -18,8 +18,8 @@ from .units import FileUnits
 
 if TYPE_CHECKING:
     from ..catenary import Line, Route, Statistics
-    from ..catenary.route_form import AnyForm
-    from ..catenary.run_data import Run
+    from ..catenary.answers.run_data import Run
+    from ..catenary.forms.route_form import AnyForm
 
 #: Arrays of a line at rest: their names in formulas, and the fields of the form.
 OF_FORM = {
@@ -125,14 +125,14 @@ class LineCase:
 
     def units(self) -> FileUnits:
         """Units of what stands in the file and in formulas."""
-        from ..catenary.entries import LineEntry
-        from ..catenary.file import with_states
+        from ..catenary.lines.entries import LineEntry
+        from ..catenary.lines.file import with_states
 
         return FileUnits(with_states(self.tables), LineEntry.model_json_schema(), UNITS, OF_SETTINGS)
 
     def read(self, values: Mapping[str, Any]) -> tuple[Line | Route, dict[str, Any]]:
         """The line with these values, by name, and the settings of its run."""
-        from ..catenary.file import other_values, parse_track
+        from ..catenary.lines.file import other_values, parse_track
 
         given = {self.paths.get(name, name): value for name, value in values.items()}
         settings = dict(self.run or {})
@@ -152,7 +152,7 @@ class LineCase:
         ModelError
             The line file, a path or a formula.
         """
-        from ..catenary.form import check
+        from ..catenary.forms.form import check
 
         line, settings = self.read({})
         check_paths(self.read, values)

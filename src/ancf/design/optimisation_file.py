@@ -109,8 +109,8 @@ def read_optimisation(path: str | Path) -> OptimisationFile:
         Something is wrong; ``where`` is the path in the file, for several problems the file.
     """
     from ..catenary.broken import place_of
-    from ..catenary.file import parse_line
-    from ..catenary.mesh import Mesh
+    from ..catenary.forms.mesh import Mesh
+    from ..catenary.lines.file import parse_line
 
     path = Path(path)
     data = read_toml(path, "optimisation file")

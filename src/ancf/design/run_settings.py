@@ -36,7 +36,7 @@ def check_pantographs(settings: Mapping[str, Any]) -> None:
     ModelError
         There is none of such a name, or its file is wrong.
     """
-    from ..catenary.pantograph import find_pantograph
+    from ..catenary.vehicles.pantograph import find_pantograph
 
     given = settings.get(PANTOGRAPH, [])
     for name in given if isinstance(given, list) else [given]:

@@ -24,7 +24,7 @@ from .study import Step, study
 if TYPE_CHECKING:
     from pandas import DataFrame
 
-    from ..catenary.route_form import AnyForm
+    from ..catenary.forms.route_form import AnyForm
 
 #: Columns of what varies: km/h, m.
 SPEED, SPACING = "speed_kmh", "spacing_m"

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from .. import validation
-from ..catenary.quantity import Quantity
+from ..catenary.answers.quantity import Quantity
 from ..validation import Group, Progress
 from ..viz import style
 from . import cases

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .. import catenary
-from ..catenary.references import filter_note, second_reading
+from ..catenary.answers.references import filter_note, second_reading
 from ..viz import style
 from .check import Check
 from .table import Table, Value

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from .. import validation
-from ..catenary.quantity import Quantity
+from ..catenary.answers.quantity import Quantity
 from ..validation import Group, Progress
 from . import belt, cases
 

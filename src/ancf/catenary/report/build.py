@@ -13,10 +13,10 @@ from ...files import write_text, writing
 from ...model import checks
 from ...viz import printed, style
 from ...viz.html import element, figure, page, section
-from ..acceptance import acceptance, footnote, verdict
+from ..answers.acceptance import acceptance, footnote, verdict
+from ..answers.clamp_strain import strained
+from ..answers.state import at_rest, state, titled
 from ..broken import told as broken
-from ..clamp_strain import strained
-from ..state import at_rest, state, titled
 from . import measured as measuring
 from . import tables
 from .content import Content
@@ -25,11 +25,11 @@ from .figures import FIGURES, Save, figure_names, picture
 if TYPE_CHECKING:
     from xml.etree.ElementTree import Element
 
+    from ..answers.measuring import Measured
+    from ..answers.quantity import Quantity
+    from ..answers.references import Reference
+    from ..answers.run_data import Run
     from ..elasticity import Elasticity
-    from ..measuring import Measured
-    from ..quantity import Quantity
-    from ..references import Reference
-    from ..run_data import Run
 
 
 def write_report(

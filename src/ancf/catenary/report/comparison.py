@@ -15,8 +15,8 @@ from ..._version import __version__
 from ...files import write_text
 from ...viz import printed, style
 from ...viz.html import element, figure, page, section
-from ..kept import Kept
-from ..quantity import shown
+from ..answers.kept import Kept
+from ..answers.quantity import shown
 from . import tables
 
 if TYPE_CHECKING:

@@ -7,17 +7,17 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from ...model import checks
+from ..answers.measuring import Measured
+from ..answers.passing import check_run
+from ..answers.references import REFERENCE, Reference, filter_note, second_reading
+from ..answers.statistics import Statistics, statistics
 from ..elasticity import Elasticity
-from ..measuring import Measured
-from ..passing import check_run
-from ..references import REFERENCE, Reference, filter_note, second_reading
-from ..statistics import Statistics, statistics
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from ..quantity import Quantity
-    from ..run_data import Run
+    from ..answers.quantity import Quantity
+    from ..answers.run_data import Run
 
 
 @dataclass(frozen=True)

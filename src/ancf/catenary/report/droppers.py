@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...viz import style
-from ..passing import broken_places, can_slacken, dropper_forces, dropper_places, passing_time
+from ..answers.passing import broken_places, can_slacken, dropper_forces, dropper_places, passing_time
 from . import marks
 from .line_answer import span_of_passings
 

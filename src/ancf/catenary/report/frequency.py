@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...viz import style
-from ..signals import CUT_OFF, histogram, sample_rate, spectrum
+from ..answers.signals import CUT_OFF, histogram, sample_rate, spectrum
 from . import marks
 
 if TYPE_CHECKING:

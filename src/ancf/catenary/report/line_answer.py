@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..passing import SupportUplift, passing_time, uplift_in_window
-from ..signals import CUT_OFF, sample_rate
+from ..answers.passing import SupportUplift, passing_time, uplift_in_window
+from ..answers.signals import CUT_OFF, sample_rate
 from . import marks
 
 if TYPE_CHECKING:

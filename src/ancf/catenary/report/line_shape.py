@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ..drawn import draw_form
+from ..forms.drawn import draw_form
 from . import marks
 
 if TYPE_CHECKING:

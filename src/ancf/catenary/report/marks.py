@@ -8,7 +8,7 @@ import numpy as np
 
 from ...arrays import BoolArray, FloatArray
 from ...viz import style
-from ..drawn import mark_line, shade_window
+from ..forms.drawn import mark_line, shade_window
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

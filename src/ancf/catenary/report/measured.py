@@ -8,7 +8,7 @@ import numpy as np
 
 from ...viz import style
 from ...viz.html import table
-from ..measuring_file import compared
+from ..answers.measuring_file import compared
 from . import marks
 
 if TYPE_CHECKING:

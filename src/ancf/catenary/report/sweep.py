@@ -15,8 +15,8 @@ from ..._version import __version__
 from ...files import write_text
 from ...viz import printed, style
 from ...viz.html import element, figure, page, section, table
-from ..quantity import shown
-from ..statistics import LARGEST_DEVIATION
+from ..answers.quantity import shown
+from ..answers.statistics import LARGEST_DEVIATION
 
 if TYPE_CHECKING:
     from xml.etree.ElementTree import Element

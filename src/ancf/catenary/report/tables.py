@@ -8,20 +8,20 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...viz.html import element, pairs, table
-from ..acceptance import LEVELS, time_above
-from ..clamp_strain import clamp_strains
-from ..cycles import rainflow
-from ..passing import DropperForces, dropper_places
-from ..quantity import TAGS, shown
-from ..route import Route
-from ..state import pulled, state, tensions
-from ..table import texts
+from ..answers.acceptance import LEVELS, time_above
+from ..answers.clamp_strain import clamp_strains
+from ..answers.cycles import rainflow
+from ..answers.passing import DropperForces, dropper_places
+from ..answers.quantity import TAGS, shown
+from ..answers.state import pulled, state, tensions
+from ..answers.table import texts
+from ..lines.route import Route
 
 if TYPE_CHECKING:
     from xml.etree.ElementTree import Element
 
-    from ..line import Line
-    from ..quantity import Quantity
+    from ..answers.quantity import Quantity
+    from ..lines.line import Line
     from .content import Content
 
 MM = 1e3

@@ -13,7 +13,7 @@ import numpy as np
 import ancf
 
 from ... import catenary
-from ...catenary.signals import Butterworth
+from ...catenary.answers.signals import Butterworth
 from ...model.bodies import PointMass
 from ..check import Check
 

@@ -1,0 +1,1 @@
+"""What a run along a line tells: records, statistics, verdicts, tables."""

@@ -1,0 +1,1 @@
+"""A line as its designer describes it, in Python and in files; no numerics."""

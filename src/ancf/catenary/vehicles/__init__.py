@@ -1,0 +1,1 @@
+"""Pantographs and the vehicles that carry them."""
