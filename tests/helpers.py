@@ -7,7 +7,7 @@ from scipy.integrate import solve_ivp
 import ancf
 from ancf.elements.registry import ELEMENTS
 from ancf.linalg.sparse import to_sparse
-from ancf.model.beam import POISSON
+from ancf.model.bodies.beam import POISSON
 from ancf.model.elements import KINDS
 from ancf.system.core import assemble, residual
 from compiled_kernels import total_strain_energy

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 import ancf
-from ancf.model.beam import Beam
+from ancf.model.bodies.beam import Beam
 from random_worlds import Frame, World, unit
 
 JOINTS = ("prismatic", "cylindrical", "planar", "universal", "hinge", "connect")

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.polynomial.legendre import leggauss
 
 import ancf
-from ancf.model.beam import Beam
-from ancf.model.joints import Slide, Spherical
+from ancf.model.bodies.beam import Beam
+from ancf.model.joints.basic import Slide, Spherical
 
 #: Gauss points that integrate a cubic times a cubic.
 PLACES, WEIGHTS = leggauss(4)

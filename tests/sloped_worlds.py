@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 import ancf
-from ancf.model.surfaces import Surface
+from ancf.model.surfaces.surface import Surface
 from ancf.model.vary import names_of
 from random_worlds import World
 

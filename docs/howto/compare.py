@@ -10,7 +10,7 @@ import numpy as np
 from ancf.cli.results_file import open_result
 from ancf.cli.screen import console, table
 from ancf.errors import ModelError
-from ancf.model.beam import Beam
+from ancf.model.bodies.beam import Beam
 
 PLACES = 9  # on each beam, its ends included
 DIGITS = 9  # behind the point of a time, s: times that are the same to them are one

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from ancf.compiled import Role, implements, inline_kernel
 from ancf.elements.cable_build import initial_vectors, shape
 from ancf.elements.shapes import gauss, hermite
-from ancf.model.beam import Beam
+from ancf.model.bodies.beam import Beam
 
 __all__ = ["build", "initial_vectors", "shape"]
 

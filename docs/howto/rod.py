@@ -7,8 +7,8 @@ import numpy as np
 
 from ancf.errors import ModelError
 from ancf.model.checks import FloatArray
+from ancf.model.joints.make_joints import check_apart
 from ancf.model.kind import JOINT, Kind, Look
-from ancf.model.make_joints import check_apart
 from ancf.model.points import Point, initial_position
 from ancf.model.tables import number
 

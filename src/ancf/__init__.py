@@ -25,11 +25,11 @@ if TYPE_CHECKING:
     from .design.sampling import sample
     from .design.study import study
     from .model import Gusts, Model, Section, Waves
+    from .model.bodies.reeving import Reeving
+    from .model.functions.series import Series
     from .model.integrators import Explicit, GeneralizedAlpha, Newton, Radau, Trapezoidal
-    from .model.mesh import Mesh
-    from .model.reeving import Reeving
-    from .model.series import Series
-    from .model.surface_shapes import Capsule, Cylinder, Plane, Sheave, Sphere, Torus
+    from .model.surfaces.mesh import Mesh
+    from .model.surfaces.shapes import Capsule, Cylinder, Plane, Sheave, Sphere, Torus
     from .results import DampedModes, Modes, Result, State
     from .resumption import resume
     from .verification import Verification, verify
@@ -40,8 +40,8 @@ _LATER = {
     "Section": "model",
     "Waves": "model",
     "Gusts": "model",
-    "Reeving": "model.reeving",
-    "Series": "model.series",
+    "Reeving": "model.bodies.reeving",
+    "Series": "model.functions.series",
     "equilibrium": "analysis",
     "simulate": "analysis",
     "modes": "analysis",
@@ -56,13 +56,13 @@ _LATER = {
     "State": "results",
     "Modes": "results",
     "DampedModes": "results",
-    "Capsule": "model.surface_shapes",
-    "Cylinder": "model.surface_shapes",
-    "Mesh": "model.mesh",
-    "Plane": "model.surface_shapes",
-    "Sheave": "model.surface_shapes",
-    "Sphere": "model.surface_shapes",
-    "Torus": "model.surface_shapes",
+    "Capsule": "model.surfaces.shapes",
+    "Cylinder": "model.surfaces.shapes",
+    "Mesh": "model.surfaces.mesh",
+    "Plane": "model.surfaces.shapes",
+    "Sheave": "model.surfaces.shapes",
+    "Sphere": "model.surfaces.shapes",
+    "Torus": "model.surfaces.shapes",
     "Trapezoidal": "model.integrators",
     "Explicit": "model.integrators",
     "GeneralizedAlpha": "model.integrators",

@@ -15,8 +15,8 @@ from .control.lead import check_controller, led
 from .control.live import Live
 from .errors import ModelError, SolveError, StorageError
 from .model import checks
-from .model.beam import Beam
-from .model.bodies import PointMass, RigidBody
+from .model.bodies.beam import Beam
+from .model.bodies.rigid import PointMass, RigidBody
 from .model.doubts import doubts
 from .model.integrators import Explicit, Integrator
 from .model.model import Model

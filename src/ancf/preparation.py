@@ -18,16 +18,16 @@ from .compilation import expected
 from .errors import Interrupted, ModelError, SolveError, StorageError
 from .interrupts import heed, kept
 from .model import checks
-from .model.beam import Beam
+from .model.bodies.beam import Beam
 from .model.doubts import doubts
+from .model.functions.series import noises
 from .model.integrators import INTEGRATORS, Integrator, Radau, Trapezoidal
-from .model.jumps import jumps
 from .model.model import Model
-from .model.periods import few_steps
-from .model.series import noises
 from .model.settings import steps_between
-from .model.supports import Support
-from .model.winch import Winch
+from .model.supports.jumps import jumps
+from .model.supports.periods import few_steps
+from .model.supports.support import Support
+from .model.supports.winch import Winch
 from .results import remembered
 from .results.given import Given
 from .results.impacts import unresolved

@@ -12,7 +12,7 @@ from .analysis import equilibrium, simulate, stable_step
 from .arrays import FloatArray
 from .errors import ModelError, SolveError
 from .model import checks
-from .model.beam import Beam
+from .model.bodies.beam import Beam
 from .model.integrators import Explicit, Integrator, Radau, Trapezoidal
 from .model.model import Model
 from .model.refine import refined

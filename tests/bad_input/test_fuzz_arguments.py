@@ -14,8 +14,8 @@ import ancf
 from ancf.catenary import Droppers, Line, Span, SteadyArm, Wire
 from ancf.cli.summary import node_count, plural, total_mass
 from ancf.model import checks
-from ancf.model.axes import carried
-from ancf.model.functions import TimeFunction
+from ancf.model.bodies.axes import carried
+from ancf.model.functions.function import TimeFunction
 from ancf.model.settings import SimulationSettings
 from fuzzing import cases, changed, finite, odd, refused_or_fine
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import ancf
-from ancf.model.axes import carried
+from ancf.model.bodies.axes import carried
 
 R = 0.5
 #: Soft enough in bending that shear and stretch do not count.

@@ -7,7 +7,7 @@ import ancf
 from ancf.batches import Batches
 from ancf.compiled import kernel
 from ancf.loads.gusts import gust_at, tables
-from ancf.model.gusts import spectrum
+from ancf.model.surroundings.gusts import spectrum
 from ancf.system.core import residual
 from ancf.system.system import System
 from refusals import refused

@@ -8,7 +8,7 @@ import pytest
 import ancf
 from ancf.batches import Batches
 from ancf.loads.waves import RATE, RISE, SPEED, sea_at, tables
-from ancf.model.waves import wave_numbers
+from ancf.model.surroundings.waves import wave_numbers
 from ancf.system.core import residual
 from ancf.system.system import System
 

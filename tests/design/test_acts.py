@@ -7,7 +7,7 @@ import pytest
 
 import ancf
 from ancf.contact.rows import WORKSPACE
-from ancf.model.section import DAMPINGS
+from ancf.model.sections.section import DAMPINGS
 from ancf.model.vary import names_of, renewal, value_of, varied
 from ancf.sensitivity.acts import acts_of
 from ancf.sensitivity.alike import OWN, differ

@@ -8,10 +8,10 @@ from additions import Addition
 from places import HOWTO
 
 #: What the page adds: files, and lines behind a line of the registry.
-FILES = {"rod.py": "model/rod.py", "rod_rows.py": "connections/rod.py"}
+FILES = {"rod.py": "model/joints/rod.py", "rod_rows.py": "connections/rod.py"}
 REGISTRY = "model/kinds.py"
 LINES = {
-    "from .rigid_joints import GUIDE, UNIVERSAL, WELD\n": "from .rod import ROD\n",
+    "from .joints.rigid_joints import GUIDE, UNIVERSAL, WELD\n": "from .joints.rod import ROD\n",
     "CONNECTIONS: list[Kind] = [\n": "    ROD,\n",
 }
 

@@ -10,7 +10,7 @@ from places import HOWTO
 PAGE = (HOWTO / "write_a_load.md").read_text(encoding="utf-8")
 #: What the page adds: a file, and an import and the record in the registry.
 KERNELS, REGISTRY = "loads/attraction.py", "model/kinds.py"
-IMPORT = "from .laws import Parameter, law\n"
+IMPORT = "from .loads.laws import Parameter, law\n"
 LIST = "LOADS: list[Kind] = [\n"
 RECORD = PAGE.split(LIST)[1].split("    ...\n]")[0]
 BEHIND = "from .kind import CONTACT, JOINT, SLIDE, SPRING, SURFACE_CONTACT, Kind, Look, Push\n"

@@ -17,9 +17,9 @@ from typer.testing import CliRunner
 from ancf import catenary
 from ancf.cli.app import app
 from ancf.design.file import StudyEntry
-from ancf.model import inputs
 from ancf.model.file import parameters, parse_study
 from ancf.model.file.entries import FileEntry
+from ancf.model.functions import inputs
 from pages import DOCS, PAGES, ROOT, WITH_CODE, alone, code_blocks, name_of
 
 #: A block that is left out needs a reason, and there may not be many.

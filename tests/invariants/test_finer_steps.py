@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import ancf
-from ancf.model.joints import Slide
+from ancf.model.joints.basic import Slide
 from helpers import EXACT, arc, soft
 from motions import momentum
 from random_models import RandomModel

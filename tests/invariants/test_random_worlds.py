@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 import ancf
-from ancf.model.body_contact import BodyContact
-from ancf.model.surfaces import SurfaceContact
+from ancf.model.surfaces.body_contact import BodyContact
+from ancf.model.surfaces.surface import SurfaceContact
 from contact_laws import on_ball, on_beam, on_ground, points_of
 from helpers import some
 from random_worlds import FRAMES, STEP, World, differences, run_of

@@ -10,7 +10,7 @@ import ancf
 from ancf import compilation
 from ancf.cli import warmup
 from ancf.compiled import _DOES, add_force
-from ancf.model.connections import Spring
+from ancf.model.joints.connections import Spring
 from ancf.records import RecordType
 from ancf.solvers.newmark import advance
 from commands import python

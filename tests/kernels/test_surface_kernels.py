@@ -10,7 +10,7 @@ from ancf.batches import Batches
 from ancf.contact.press import BONDED, COUNT, WATCHED, press_free, press_lost
 from ancf.contact.profiles import distances
 from ancf.linalg.sparse import to_sparse
-from ancf.model.surface_shapes import SHAPES
+from ancf.model.surfaces.shapes import SHAPES
 from ancf.system.core import assemble, keep_memory, residual
 from ancf.system.system import System
 

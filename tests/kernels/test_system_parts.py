@@ -12,7 +12,7 @@ from ancf.elements.measures import axial_strain
 from ancf.elements.shapes import gauss, hermite
 from ancf.elements.slopes import mean_strain, slope, vectors_of
 from ancf.linalg.sparse import to_sparse
-from ancf.model.functions import TimeFunction
+from ancf.model.functions.function import TimeFunction
 from ancf.solvers import sampling
 from ancf.solvers.statics.free_spin import Spin, is_neutral
 from ancf.solvers.statics.pressed import least_stretch

@@ -8,7 +8,7 @@ import pytest
 
 import ancf
 from ancf.model.file import parse_study, schema
-from ancf.model.functions import TimeFunction
+from ancf.model.functions.function import TimeFunction
 
 SECTION = ancf.Section(EA=1e3, EI=0.1, rhoA=0.4)
 

@@ -7,8 +7,8 @@ import pytest
 
 import ancf
 from ancf.errors import SolveError
-from ancf.model import sudden
-from ancf.model.jumps import jumps
+from ancf.model.supports import sudden
+from ancf.model.supports.jumps import jumps
 
 WIRE = ancf.Section(EA=1e6, EI=1.0, rhoA=1.0)
 

@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 
 import ancf
-from ancf.model.beam import Beam
+from ancf.model.bodies.beam import Beam
 from ancf.model.elements import KINDS as ELEMENTS
 from ancf.model.file import parse_study, schema
 from ancf.model.integrators import INTEGRATORS
+from ancf.model.joints.touching import bodies_of, to_ground
 from ancf.model.kind import SLIDE, body_of
 from ancf.model.kinds import GROUPS, all_kinds, by_word, kind_of, marked
-from ancf.model.touching import bodies_of, to_ground
 from ancf.system.system import System
 from ancf.viz.export.parts import part_kinds
 from ancf.viz.pictures.questions import DEFAULTS, noun_of

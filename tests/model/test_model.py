@@ -300,7 +300,7 @@ class TestPath:
         assert math.log2(errors[0] / errors[1]) > 3.5
 
     def test_spline_passes_the_points_at_its_own_arc_lengths(self):
-        from ancf.model.path import interpolated
+        from ancf.model.bodies.path import interpolated
 
         curve = interpolated(circle(np.linspace(0, 1.5, 9)), "path")
         position, tangent = curve.at(curve.knot_lengths)

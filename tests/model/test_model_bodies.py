@@ -11,7 +11,7 @@ from ancf.cli.info_model import _bodies, _masses
 from ancf.cli.summary import node_count, outputs, total_mass
 from ancf.model import Model, PointMass, RigidBody
 from ancf.model.file import parse_study, schema
-from ancf.model.supports import node_of
+from ancf.model.supports.support import node_of
 from refusals import cable_section, refused
 
 NAN = float("nan")

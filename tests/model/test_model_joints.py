@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 import ancf
-from ancf.model import Model, Section, lookup, nearest
+from ancf.model import Model, Section, lookup
+from ancf.model.bodies import nearest
 from ancf.model.file import parse_study, schema
 from ancf.model.integrators import FORMULATIONS, INTEGRATORS, integrator_of, table_schema
 from helpers import arc

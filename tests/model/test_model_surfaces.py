@@ -9,7 +9,7 @@ import pytest
 
 import ancf
 from ancf.model.file import parse_study, schema
-from ancf.model.surface_shapes import SHAPES
+from ancf.model.surfaces.shapes import SHAPES
 from ancf.system.system import System
 
 SHAPE_OF = {

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 import ancf
-from ancf.model.jumps import jumps
-from ancf.model.periods import few_steps
+from ancf.model.supports.jumps import jumps
+from ancf.model.supports.periods import few_steps
 from commands import MODEL
 
 WIRE = ancf.Section(EA=1e6, EI=1.0, rhoA=1.0)

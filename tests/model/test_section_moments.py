@@ -3,7 +3,7 @@
 import pytest
 
 from ancf.errors import ModelError
-from ancf.model.section_moments import check_moments, of_similar_rectangle
+from ancf.model.sections.moments import check_moments, of_similar_rectangle
 
 
 def rectangle(b, h):

@@ -11,8 +11,8 @@ import ancf
 from ancf.columns import read_columns, split_unit
 from ancf.model import TimeFunction
 from ancf.model.file import read_study, schema
-from ancf.model.series import Series, noises
-from ancf.model.units import UNITS
+from ancf.model.functions.series import Series, noises
+from ancf.model.functions.units import UNITS
 
 MOTION = """
 gravity = [0, 0, -9.81]

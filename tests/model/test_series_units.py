@@ -8,7 +8,7 @@ import pytest
 import ancf
 from ancf.cosimulation.units import BaseUnit, base_unit
 from ancf.model.file import read_study
-from ancf.model.units import KINDS, factor, in_plain_units, kind_of
+from ancf.model.functions.units import KINDS, factor, in_plain_units, kind_of
 
 #: Where a series may stand, with the unit of the package that belongs there.
 PLACES = {

@@ -6,7 +6,7 @@ import pytest
 import ancf
 from ancf.loads.law_functions import python_of
 from ancf.model.file import parse_study
-from ancf.model.state_function import NAMES, StateFunction, force_function
+from ancf.model.loads.state_function import NAMES, StateFunction, force_function
 
 FORMULAS = (
     "-20*vx",

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import ancf
-from ancf.model.beam import Beam
+from ancf.model.bodies.beam import Beam
 from ancf.system.system import System
 from ancf.viz.scene import QUANTITIES, looks
 from ancf.viz.scene.combs import fastest

@@ -38,7 +38,7 @@ def run(count):
 
 
 def names(result):
-    return [c.name for c in result.model.connections if isinstance(c, ancf.model.contact.Contact)]
+    return [c.name for c in result.model.connections if isinstance(c, ancf.model.surfaces.contact.Contact)]
 
 
 class TestScale:

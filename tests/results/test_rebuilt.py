@@ -8,7 +8,7 @@ import pytest
 
 import ancf
 from ancf.batches import Batches
-from ancf.model.bodies import as_inertia
+from ancf.model.bodies.rigid import as_inertia
 from ancf.system.system import System
 from helpers import SOLIDS, arc, square
 

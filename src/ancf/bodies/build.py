@@ -7,9 +7,9 @@ from collections.abc import Iterable
 import numpy as np
 
 from ..arrays import FloatArray, IntArray
-from ..model.beam import Beam
-from ..model.bodies import PointMass, RigidBody
-from ..model.section_inertia import of_cable
+from ..model.bodies.beam import Beam
+from ..model.bodies.rigid import PointMass, RigidBody
+from ..model.sections.inertia import of_cable
 from .inertia import InertiaBatch
 
 

@@ -10,10 +10,10 @@ import ancf
 
 from ..arrays import FloatArray
 from ..errors import ModelError
-from ..model.bodies import PointMass
-from ..model.connections import Spring
+from ..model.bodies.rigid import PointMass
+from ..model.joints.connections import Spring
 from ..model.points import Point
-from ..model.supports import Hold
+from ..model.supports.support import Hold
 from .forms.form import Form
 from .lines.fittings import SteadyArm, hangs
 

@@ -11,10 +11,10 @@ import ancf
 from ..arrays import BoolArray, FloatArray
 from ..errors import ModelError
 from ..model import checks
-from ..model.bodies import PointMass
-from ..model.connections import Spring
+from ..model.bodies.rigid import PointMass
+from ..model.joints.connections import Spring
 from ..model.points import Point
-from ..model.supports import Hold, Pin
+from ..model.supports.support import Hold, Pin
 from .arms import LONG, add_arms, add_long_spring, add_mass
 from .forms.along_track import add_sideways, add_wind, curve_pull
 from .forms.form import Form

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any, TypeVar
 
 from ..errors import ModelError
-from ..model.bodies import PointMass
+from ..model.bodies.rigid import PointMass
 from ..model.model import Model
 from .vehicles.pantograph import Pantograph
 from .vehicles.roof import RoofMotion, Track

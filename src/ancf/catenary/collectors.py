@@ -8,11 +8,11 @@ from typing import Any
 from ..arrays import FloatArray
 from ..errors import ModelError
 from ..model import checks
-from ..model.beam import Beam
-from ..model.bodies import PointMass
-from ..model.contact import Contact
-from ..model.joints import Slide
+from ..model.bodies.beam import Beam
+from ..model.bodies.rigid import PointMass
+from ..model.joints.basic import Slide
 from ..model.model import Model
+from ..model.surfaces.contact import Contact
 from .chain import APART, Chain, Level, add_chain, add_stages, numbered
 from .vehicles.pantograph import Pantograph
 from .vehicles.roof import RoofMotion

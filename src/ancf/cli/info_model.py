@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..model.beam import Beam
-from ..model.bodies import RigidBody, kind
+from ..model.bodies.beam import Beam
+from ..model.bodies.rigid import RigidBody, kind
 from ..model.file import Study, read_study
 from ..model.model import Model
 from .notes import notes

@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING
 
 from ..errors import ModelError
 from ..model.doubts import doubts, drawn_otherwise
-from ..model.elsewhere import elsewhere
 from ..model.file import Study
+from ..model.functions.series import noises
 from ..model.integrators import Radau
-from ..model.jumps import jumps
-from ..model.periods import few_steps
-from ..model.series import noises
-from ..model.sudden import sudden
+from ..model.supports.elsewhere import elsewhere
+from ..model.supports.jumps import jumps
+from ..model.supports.periods import few_steps
+from ..model.supports.sudden import sudden
 from ..system.initial_motion import at_rest
 from .summary import node_count
 

@@ -12,8 +12,8 @@ import numpy as np
 
 from .. import __version__
 from ..errors import ModelError, SolveError
-from ..model.beam import Beam
-from ..model.bodies import Body
+from ..model.bodies.beam import Beam
+from ..model.bodies.rigid import Body
 from ..model.file import Study
 from ..model.model import Model
 from .screen import table

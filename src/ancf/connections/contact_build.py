@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from ..arrays import FloatArray, IntArray
-from ..model.contact import Contact
 from ..model.points import Point
+from ..model.surfaces.contact import Contact
 from .carrier import COLUMNS
 from .contact import ContactBatch
 from .contact_touch import ARC

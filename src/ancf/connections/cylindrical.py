@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ..arrays import IntArray
-from ..model.guides import Cylindrical
+from ..model.joints.guides import Cylindrical
 from .joint_build import Locate, Row, axis_of, normals, place_of
 
 

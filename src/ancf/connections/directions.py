@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..arrays import FloatArray, IntArray
-from ..model.beam import Beam
+from ..model.bodies.beam import Beam
 from ..model.points import Point
 from .joint_build import Row, Vector, axis_of, node_axes, normals
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from ..arrays import IntArray
-from ..model.beam import Beam
-from ..model.joints import Fixation
+from ..model.bodies.beam import Beam
+from ..model.joints.basic import Fixation
 from .joint_build import UNITS, Locate, Row, Vector, node_axes, normals
 
 

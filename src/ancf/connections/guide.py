@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from ..arrays import IntArray
-from ..model.bodies import PointMass
-from ..model.rigid_joints import Guide
+from ..model.bodies.rigid import PointMass
+from ..model.joints.rigid_joints import Guide
 from .directions import held
 from .joint_build import Locate, Row, Vector, normals, place_of
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ..arrays import IntArray
-from ..model.joints import Revolute
+from ..model.joints.basic import Revolute
 from .joint_build import Locate, Row, axis_of, coincide, normals
 
 

@@ -11,8 +11,8 @@ import numpy as np
 
 from ..arrays import FloatArray, IntArray
 from ..elements.registry import ELEMENTS
-from ..model.beam import Beam
-from ..model.bodies import RigidBody
+from ..model.bodies.beam import Beam
+from ..model.bodies.rigid import RigidBody
 from ..model.elements import KINDS
 from ..model.kinds import kind_of
 from ..model.points import Point

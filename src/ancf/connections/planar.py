@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ..arrays import IntArray
-from ..model.guides import Planar
+from ..model.joints.guides import Planar
 from .joint_build import Locate, Row, axis_of, normals, place_of
 
 

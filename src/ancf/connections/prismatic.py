@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from ..arrays import FloatArray, IntArray
-from ..model.beam import Beam
-from ..model.guides import Prismatic
+from ..model.bodies.beam import Beam
+from ..model.joints.guides import Prismatic
 from ..model.points import Point
 from . import cylindrical
 from .directions import slopes_of

@@ -10,9 +10,9 @@ import numpy as np
 from ..arrays import FloatArray, IntArray
 from ..compiled import Role, implements
 from ..elements.registry import ELEMENTS
-from ..model.beam import Beam
-from ..model.bodies import RigidBody
-from ..model.joints import Slide
+from ..model.bodies.beam import Beam
+from ..model.bodies.rigid import RigidBody
+from ..model.joints.basic import Slide
 from ..model.points import Point
 from .carrier import COLUMNS
 from .in_matrix import bind_sliding, sliding_pairs

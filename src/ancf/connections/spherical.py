@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ..arrays import IntArray
-from ..model.joints import Spherical
+from ..model.joints.basic import Spherical
 from .joint_build import Locate, Row, coincide
 
 

@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from ..model.beam import Beam
-from ..model.connections import Spring
+from ..model.bodies.beam import Beam
+from ..model.joints.connections import Spring
 from ..model.model import Model
 from ..model.points import Point
 from .curves import curves

@@ -7,9 +7,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from ..arrays import FloatArray, IntArray
-from ..model.beam import Beam
+from ..model.bodies.beam import Beam
+from ..model.joints.torsion import TorsionSpring
 from ..model.points import Point
-from ..model.torsion import TorsionSpring
 from .directions import slopes_of
 from .joint_build import Vector, axis_of, normals
 from .torsion import SLOTS, TorsionBatch

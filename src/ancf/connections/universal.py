@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ..arrays import IntArray
-from ..model.rigid_joints import Universal
+from ..model.joints.rigid_joints import Universal
 from .joint_build import Locate, Row, axis_of, coincide
 
 

@@ -10,9 +10,9 @@ from __future__ import annotations
 import numpy as np
 
 from ..arrays import IntArray
-from ..model.beam import Beam
+from ..model.bodies.beam import Beam
+from ..model.joints.rigid_joints import Weld
 from ..model.points import Point
-from ..model.rigid_joints import Weld
 from .directions import alike, held, slopes_of, unsheared
 from .joint_build import UNITS, Locate, Row, Vector, coincide
 

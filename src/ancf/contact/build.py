@@ -15,7 +15,7 @@ from ..elements.registry import ELEMENTS
 from ..elements.shapes import gauss, hermite
 from ..errors import ModelError
 from ..loads.along import along, ordered
-from ..model.surfaces import Surface, SurfaceContact
+from ..model.surfaces.surface import Surface, SurfaceContact
 from .mesh import distances, trees
 from .press import PressBatch
 from .profiles import NUMBER

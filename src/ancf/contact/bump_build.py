@@ -11,10 +11,10 @@ import numpy as np
 from ..arrays import FloatArray, IntArray
 from ..compiled import traits
 from ..errors import ModelError
-from ..model.bodies import RigidBody
-from ..model.body_contact import BodyContact
-from ..model.shape import Shape
-from ..model.surface_shapes import Capsule, Cylinder, Plane, Sheave, Sphere, Torus
+from ..model.bodies.rigid import RigidBody
+from ..model.surfaces.body_contact import BodyContact
+from ..model.surfaces.shape import Shape
+from ..model.surfaces.shapes import Capsule, Cylinder, Plane, Sheave, Sphere, Torus
 from ..records import Located
 from .build import MOST_NUMBERS
 from .bump import bump_values

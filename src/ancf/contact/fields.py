@@ -10,7 +10,7 @@ import numpy as np
 from ..arrays import BoolArray, FloatArray
 from ..compiled import kernel
 from ..elements.shapes import gauss
-from ..model.surfaces import SurfaceContact
+from ..model.surfaces.surface import SurfaceContact
 from ..records import Located
 from .press import press_measure, pressed
 from .rub import drawn, rub_measure, rubbed

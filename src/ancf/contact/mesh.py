@@ -19,8 +19,8 @@ import numpy as np
 
 from ..arrays import FloatArray, IntArray
 from ..compiled import inline_kernel, kernel
-from ..model.mesh import Mesh
-from ..model.shape import Shape
+from ..model.surfaces.mesh import Mesh
+from ..model.surfaces.shape import Shape
 from ..vectors import cross, dot
 from .profiles import NUMBER
 from .profiles import distances as distances_of_profile

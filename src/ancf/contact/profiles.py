@@ -6,8 +6,8 @@ A profile is one function ``profile(numbers, rho, z)`` that returns
     n_rho, n_z       its gradient, the unit normal that points outwards,
     bend             the curvature of the line of equal distance in that plane, 1/m, positive where convex,
 
-for the numbers of its shape in the order of their declaration (:mod:`ancf.model.surface_shapes`).  With the
-curvature n_rho/rho about the axis, ``bend`` is all of the derivative of the normal.
+for the numbers of its shape in the order of their declaration (:mod:`ancf.model.surfaces.shapes`).
+With the curvature n_rho/rho about the axis, ``bend`` is all of the derivative of the normal.
 """
 
 from __future__ import annotations
@@ -20,8 +20,8 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..compiled import inline_kernel, kernel
-from ..model.shape import Shape
-from ..model.surface_shapes import SHAPES
+from ..model.surfaces.shape import Shape
+from ..model.surfaces.shapes import SHAPES
 
 
 @inline_kernel

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..compiled import formula, inline_kernel
-from ..model.beam import Beam
+from ..model.bodies.beam import Beam
 from ..records import beginning
 from ..vectors import dot
 from .touching import Touching

@@ -16,9 +16,9 @@ from ..compiled import VECTOR, traits
 from ..elements.registry import ELEMENTS
 from ..errors import ModelError
 from ..later import cKDTree
-from ..model.beam import Beam
-from ..model.cable_contact import CableContact
+from ..model.bodies.beam import Beam
 from ..model.points import Point
+from ..model.surfaces.cable_contact import CableContact
 from ..records import RecordType, type_of
 from .build import SUNK
 from .grip import COLUMNS, GripBatch

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..errors import ModelError, SolveError
-from ..model.expression import Expression
+from ..model.functions.expression import Expression
 from ..results.store import MemoryStore
 from ..solvers.quick import DONE, PACKED, Quick
 from ..solvers.sleeping.far import LOOKED

@@ -11,8 +11,8 @@ from ..arrays import FloatArray
 from ..contact.rubbed import RUBBED
 from ..errors import ModelError
 from ..model import checks
+from ..model.joints.torsion import TorsionSpring
 from ..model.names import unknown
-from ..model.torsion import TorsionSpring
 from ..preparation import Prepared
 from ..results import motions, remembered
 from ..results.given import Given

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 
 from ..control.stepper import Stepper
-from ..model.beam import Beam
-from ..model.supports import Clamp
+from ..model.bodies.beam import Beam
+from ..model.supports.support import Clamp
 from ..results.state import State
 
 #: Questions with their units, and the names of their parts.

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..errors import ModelError
-from ..model.expression import CONSTANTS, FUNCTIONS, OPERATORS
+from ..model.functions.expression import CONSTANTS, FUNCTIONS, OPERATORS
 from .formulas import LENGTH, REDUCTIONS, Answers, Formula
 
 #: Derivatives of functions of one argument.

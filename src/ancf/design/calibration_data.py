@@ -13,7 +13,7 @@ from ..arrays import FloatArray
 from ..columns import read_columns
 from ..errors import ModelError
 from ..model import checks
-from ..model.units import KINDS, in_plain_units
+from ..model.functions.units import KINDS, in_plain_units
 from ..viz import style
 
 TIME = "t"

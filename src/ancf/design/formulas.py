@@ -12,7 +12,7 @@ import numpy as np
 
 from ..errors import ModelError, SolveError
 from ..model.checks import listed, nearest
-from ..model.expression import CONSTANTS, FUNCTIONS, OPERATORS
+from ..model.functions.expression import CONSTANTS, FUNCTIONS, OPERATORS
 from .meant import meant_by
 from .work import NotFiniteError
 

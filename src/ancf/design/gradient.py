@@ -13,11 +13,11 @@ from ..analysis import equilibrium, simulate
 from ..arrays import FloatArray, IntArray
 from ..errors import ModelError
 from ..model import checks
-from ..model.contact import Contact
-from ..model.joints import Slide
+from ..model.joints.basic import Slide
 from ..model.kinds import kind_of
 from ..model.model import Model
 from ..model.points import Point
+from ..model.surfaces.contact import Contact
 from ..preparation import method_of, prepared
 from ..results.state import State
 from ..sensitivity.adjoint import Adjoint, UnsolvedError

@@ -11,9 +11,9 @@ import numpy as np
 from ..arrays import FloatArray
 from ..errors import ModelError
 from ..model import checks
-from ..model.inputs import Input
+from ..model.functions.inputs import Input
 from ..model.names import unknown
-from ..model.supports import AXES, Clamp
+from ..model.supports.support import AXES, Clamp
 from ..solvers.modes.damped_modal import Damped
 from ..solvers.modes.linear_moved import Moved, columns_of, forces_of, moved_alone, slope, turned
 from ..system.inputs import Drive

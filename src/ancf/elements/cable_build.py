@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..arrays import FloatArray, IntArray
-from ..model.beam import Beam
+from ..model.bodies.beam import Beam
 from ..simd import LANES
 from .cable import CableBatch
 from .cable_columns import (

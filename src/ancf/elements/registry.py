@@ -9,7 +9,7 @@ from typing import Any, Protocol, cast
 from numpy.typing import ArrayLike
 
 from ..arrays import FloatArray
-from ..model.beam import Beam
+from ..model.bodies.beam import Beam
 from ..model.elements import KINDS
 from . import winched_build
 

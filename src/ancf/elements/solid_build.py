@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 
 from ..arrays import FloatArray, IntArray
-from ..model.beam import Beam
-from ..model.section import Rectangle
-from ..model.section_inertia import of_beam
+from ..model.bodies.beam import Beam
+from ..model.sections.inertia import of_beam
+from ..model.sections.section import Rectangle
 from ..simd import LANES
 from .chunks import elements_in, in_lanes
 from .shapes import gauss

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..arrays import FloatArray
-from ..model.beam import Beam
+from ..model.bodies.beam import Beam
 from .shapes import hermite
 
 #: Internal vectors by element.

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..arrays import FloatArray, IntArray
-from ..model.beam import Beam
+from ..model.bodies.beam import Beam
 from . import cable_build
 from .cable_columns import INV_L, LENGTH, MASS
 from .cable_slack import Slack

@@ -27,8 +27,8 @@ from numpy.typing import NDArray
 from ..compiled import formula, inline_kernel
 from ..elements.registry import ELEMENTS
 from ..elements.shapes import gauss
-from ..model.beam import Beam
-from ..model.bodies import Body, PointMass, RigidBody
+from ..model.bodies.beam import Beam
+from ..model.bodies.rigid import Body, PointMass, RigidBody
 from ..model.points import Point
 from ..simd import every, load, store
 

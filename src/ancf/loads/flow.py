@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from ..compiled import formula, inline_kernel
-from ..model.velocity_field import STEP
+from ..model.surroundings.velocity_field import STEP
 from . import gusts
 from .state_force import call
 from .waves import RATE, RISE, SPEED, renew_waves

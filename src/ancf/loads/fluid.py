@@ -25,8 +25,8 @@ from numpy.typing import NDArray
 
 from ..arrays import FloatArray
 from ..compiled import Role, formula, implements, inline_kernel
-from ..model.beam import Beam
-from ..model.fluids import require_section
+from ..model.bodies.beam import Beam
+from ..model.surroundings.fluids import require_section
 from . import gusts
 from .along import (
     acceleration_at,

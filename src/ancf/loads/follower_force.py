@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from ..arrays import FloatArray
 from ..compiled import Role, formula, implements, inline_kernel
-from ..model.beam import Beam
+from ..model.bodies.beam import Beam
 from .follower_slopes import (
     differentiate,
     follower_slopes_along,

@@ -37,10 +37,10 @@ from numpy.typing import NDArray
 from ..arrays import FloatArray
 from ..compiled import Role, formula, implements, inline_kernel, kernel, traits
 from ..errors import ModelError
-from ..model.beam import Beam
-from ..model.fluids import require_section
-from ..model.grounds import Relief
+from ..model.bodies.beam import Beam
 from ..model.points import initial_position
+from ..model.surroundings.fluids import require_section
+from ..model.surroundings.grounds import Relief
 from ..records import Located
 from .along import (
     add_block_along,

@@ -1,4 +1,4 @@
-"""Speed of gusts at a place and a time from their table, see :class:`ancf.model.gusts.Gusts`."""
+"""Speed of gusts at a place and a time from their table, see :class:`ancf.model.surroundings.gusts.Gusts`."""
 
 from __future__ import annotations
 

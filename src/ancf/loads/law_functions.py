@@ -15,9 +15,9 @@ from numba import cfunc, njit, types
 
 from ..errors import ModelError
 from ..model import checks
-from ..model.expression import Expression
-from ..model.state_function import StateFunction
-from ..model.velocity_field import VelocityField
+from ..model.functions.expression import Expression
+from ..model.loads.state_function import StateFunction
+from ..model.surroundings.velocity_field import VelocityField
 
 _OPTIONS: dict[str, Any] = {"error_model": "numpy"}
 _SIGNATURE = types.float64(types.float64, types.CPointer(types.float64))

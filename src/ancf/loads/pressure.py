@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from ..arrays import FloatArray
 from ..compiled import Role, implements, inline_kernel
-from ..model.followers import Pressure
+from ..model.loads.followers import Pressure
 from ..vectors import cross
 from .along import (
     add_along,

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from ..arrays import FloatArray
 from ..compiled import Role, formula, implements, inline_kernel
 from ..elements.shapes import gauss
-from ..model.loads import DistributedLoad
+from ..model.loads.load import DistributedLoad
 from ..simd import every, load, store
 from ..vectors import dot
 from .at_points import add_force_at, add_tangent_at, at_point, at_points

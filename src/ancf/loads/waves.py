@@ -1,4 +1,4 @@
-"""Velocity and acceleration of waves at a point, by linear theory; see :class:`ancf.model.waves.Waves`.
+"""Velocity and acceleration of waves at a point, by linear theory; see ``model.surroundings.waves``.
 
 What a wave gives at a point is kept for the corrections of one step: the point moves between them by so
 little that the wave is the same.  A point at rest, as in an equilibrium, is asked anew each time.
@@ -83,7 +83,7 @@ def _components(waves, k):
 
 @inline_kernel
 def share_of(t, ramp):
-    """Share of the waves at a time and its derivative, see :func:`ancf.model.waves.grown`."""
+    """Share of the waves at a time and its derivative, see :func:`ancf.model.surroundings.waves.grown`."""
     if t >= ramp:
         return 1.0, 0.0
     if t <= 0.0:

@@ -1,22 +1,22 @@
 """What the user describes: Model, Section, bodies, points, supports, loads, connections; no numerics."""
 
-from .beam import Beam
-from .bodies import PointMass, RigidBody
-from .connections import Spring
-from .contact import Contact
-from .functions import TimeFunction
-from .guides import Cylindrical, Planar, Prismatic
-from .gusts import Gusts
-from .joints import Fixation, Revolute, Slide, Spherical
+from .bodies.beam import Beam
+from .bodies.rigid import PointMass, RigidBody
+from .functions.function import TimeFunction
+from .joints.basic import Fixation, Revolute, Slide, Spherical
+from .joints.connections import Spring
+from .joints.guides import Cylindrical, Planar, Prismatic
+from .joints.rigid_joints import Guide, Universal, Weld
+from .joints.torsion import TorsionSpring
 from .keywords import guard
-from .loads import DistributedLoad, Force, Moment
+from .loads.load import DistributedLoad, Force, Moment
 from .model import Model
 from .points import Point
-from .rigid_joints import Guide, Universal, Weld
-from .section import Circle, Rectangle, Section
-from .supports import Clamp, Hold, Pin
-from .torsion import TorsionSpring
-from .waves import Waves
+from .sections.section import Circle, Rectangle, Section
+from .supports.support import Clamp, Hold, Pin
+from .surfaces.contact import Contact
+from .surroundings.gusts import Gusts
+from .surroundings.waves import Waves
 
 __all__ = [
     "Beam",

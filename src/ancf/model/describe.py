@@ -7,21 +7,21 @@ from typing import Any
 
 import numpy as np
 
-from .beam import Beam
-from .bodies import IN_FLUID as BODY_IN_FLUID
-from .bodies import Body, PointMass, RigidBody
-from .functions import TimeFunction
-from .grounds import Relief
-from .gusts import Gusts
+from .bodies.beam import Beam
+from .bodies.layout import PLACED, is_straight
+from .bodies.rigid import IN_FLUID as BODY_IN_FLUID
+from .bodies.rigid import Body, PointMass, RigidBody
+from .functions.function import TimeFunction
 from .kind import Kind
-from .layout import PLACED, is_straight
+from .loads.state_function import StateFunction
 from .points import Point
-from .section import DAMPINGS, MOMENTS, Rectangle, Section
-from .section_inertia import OPTIONAL
-from .state_function import StateFunction
-from .surfaces import Surface
-from .velocity_field import VelocityField
-from .waves import Waves
+from .sections.inertia import OPTIONAL
+from .sections.section import DAMPINGS, MOMENTS, Rectangle, Section
+from .surfaces.surface import Surface
+from .surroundings.grounds import Relief
+from .surroundings.gusts import Gusts
+from .surroundings.velocity_field import VelocityField
+from .surroundings.waves import Waves
 
 MOTION = ("velocity", "angular_velocity", "about")
 #: Of beams only, and only where there are any.

@@ -8,18 +8,18 @@ from typing import Any
 
 import numpy as np
 
-from .body_contact import BodyContact
-from .cable_contact import CableContact
-from .fluids import Fluid
+from .joints.torsion import TorsionSpring
 from .kinds import kind_of
 from .points import Point
-from .section import Section
-from .supports import node_of
-from .surfaces import SurfaceContact
-from .torsion import TorsionSpring
-from .velocity_field import VelocityField
-from .waves import REGULAR, Waves
-from .winch import Winch
+from .sections.section import Section
+from .supports.support import node_of
+from .supports.winch import Winch
+from .surfaces.body_contact import BodyContact
+from .surfaces.cable_contact import CableContact
+from .surfaces.surface import SurfaceContact
+from .surroundings.fluids import Fluid
+from .surroundings.velocity_field import VelocityField
+from .surroundings.waves import REGULAR, Waves
 
 #: Of solids, N/m^2: gels and foams have a thousand or more.
 SOFTEST = 1e3

@@ -9,10 +9,10 @@ from typing import Any
 
 import numpy as np
 
-from .beam import Beam
-from .joints import Slide
+from .bodies.beam import Beam
+from .joints.basic import Slide
 from .kinds import GROUPS, SURROUNDINGS
-from .loads import DistributedLoad
+from .loads.load import DistributedLoad
 from .points import Point
 
 #: What refers to nothing.

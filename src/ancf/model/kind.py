@@ -6,8 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from .bodies import Body
-from .functions import TimeFunction
+from .bodies.rigid import Body
+from .functions.function import TimeFunction
 from .points import Point
 
 #: Under which noun results answer questions about a connection, see ancf.viz.pictures.questions.

@@ -7,22 +7,24 @@ from functools import cache
 from importlib import import_module
 from typing import Any
 
-from . import body_contact, cable_contact, sheets, surfaces
-from .connections import Spring
-from .contact import Contact
-from .fluids import Fluid
-from .followers import FOLLOWER_FORCE, PRESSURE
-from .functions import TimeFunction
-from .grounds import Ground
-from .guides import Cylindrical, Planar, Prismatic
-from .joints import Fixation, Revolute, Slide, Spherical
+from . import sheets
+from .functions.function import TimeFunction
+from .joints.basic import Fixation, Revolute, Slide, Spherical
+from .joints.connections import Spring
+from .joints.guides import Cylindrical, Planar, Prismatic
+from .joints.rigid_joints import GUIDE, UNIVERSAL, WELD
+from .joints.torsion import TORSION_SPRING
 from .kind import CONTACT, JOINT, SLIDE, SPRING, SURFACE_CONTACT, Kind, Look, Push
-from .loads import DistributedLoad, Force, Moment
-from .rigid_joints import GUIDE, UNIVERSAL, WELD
-from .state_function import StateFunction
-from .supports import Clamp, Hold, Pin
-from .torsion import TORSION_SPRING
-from .winch import Winch
+from .loads.followers import FOLLOWER_FORCE, PRESSURE
+from .loads.load import DistributedLoad, Force, Moment
+from .loads.state_function import StateFunction
+from .supports.support import Clamp, Hold, Pin
+from .supports.winch import Winch
+from .surfaces import body_contact, cable_contact
+from .surfaces import surface as surfaces
+from .surfaces.contact import Contact
+from .surroundings.fluids import Fluid
+from .surroundings.grounds import Ground
 
 
 def _entry(name: str, module: str = "items") -> Callable[[], Any]:

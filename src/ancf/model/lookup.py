@@ -12,15 +12,15 @@ import numpy as np
 from ..arrays import FloatArray
 from ..errors import ModelError
 from . import checks
-from .beam import Beam
-from .bodies import Body, PointMass, RigidBody, kind
-from .connections import Connection, Spherical, initial_position
-from .inputs import Input, make_input
+from .bodies.beam import Beam
+from .bodies.rigid import Body, PointMass, RigidBody, kind
+from .functions.inputs import Input, make_input
+from .joints.connections import Connection, Spherical, initial_position
+from .joints.repeated import Joined
 from .kinds import GROUPS, SURROUNDINGS, all_kinds, kind_of
 from .names import POINT_LABEL, Names, numbers_of, split_label, unknown
 from .points import Point
-from .repeated import Joined
-from .supports import Support
+from .supports.support import Support
 
 #: A question as formulas of studies have it.
 QUESTION = re.compile(r"[a-z_]+\((.+)\)")

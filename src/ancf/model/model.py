@@ -7,20 +7,22 @@ from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
 from ..arrays import FloatArray
 from ..errors import ModelError
-from . import auto_elements, checks, describe, followers, other_words, rebuild
-from .beam import Beam
-from .connecting import PointLike
-from .functions import check_inputs
+from . import checks, describe, other_words, rebuild
+from .bodies import auto_elements
+from .bodies.beam import Beam
+from .bodies.layout import make_beam
+from .functions.function import check_inputs
+from .joints.connecting import PointLike
 from .keywords import called_as
 from .kinds import GROUPS, SURROUNDINGS, all_kinds, kind_of
-from .layout import make_beam
-from .loads import DistributedLoad, Force, Load, Moment, make_distributed, make_moment
+from .loads import followers
+from .loads.load import DistributedLoad, Force, Load, Moment, make_distributed, make_moment
+from .loads.state_function import force_function
 from .overview import of_model
 from .points import initial_position
-from .section import Section
-from .state_function import force_function
-from .supporting import Supporting
-from .supports import Support
+from .sections.section import Section
+from .supports.support import Support
+from .supports.supporting import Supporting
 from .tables import Readable, Sheet
 
 LoadT = TypeVar("LoadT", bound=Load)

@@ -6,15 +6,15 @@ from collections.abc import Iterable
 from typing import Any, Protocol
 
 from ..arrays import FloatArray
-from .beam import Beam
-from .bodies import Body, kind
+from .bodies.beam import Beam
+from .bodies.rigid import Body, kind
 from .doubts import doubts, drawn_otherwise
-from .elsewhere import elsewhere
-from .inputs import Input
+from .functions.inputs import Input
+from .functions.series import noises
 from .kind import Kind
 from .kinds import SURROUNDINGS, kind_of
-from .series import noises
 from .sheets import place
+from .supports.elsewhere import elsewhere
 from .tables import Sheet, Table, counted, number, numbers, plural
 
 BODY_COLUMNS = (

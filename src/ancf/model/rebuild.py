@@ -9,14 +9,14 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from ..errors import ModelError
 from . import checks
-from .beam import Beam
-from .bodies import IN_FLUID, Body, make_point_mass, make_rigid_body
+from .bodies.beam import Beam
+from .bodies.layout import placed_beam
+from .bodies.rigid import IN_FLUID, Body, make_point_mass, make_rigid_body
 from .describe import VELOCITIES, section_of
-from .functions import Missing, TimeFunction
-from .inputs import Input, named
+from .functions.function import Missing, TimeFunction
+from .functions.inputs import Input, named
 from .kinds import GROUPS, SURROUNDINGS, by_word
-from .layout import placed_beam
-from .velocity_field import VelocityField
+from .surroundings.velocity_field import VelocityField
 
 if TYPE_CHECKING:
     from contextlib import AbstractContextManager

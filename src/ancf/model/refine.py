@@ -7,7 +7,7 @@ from copy import deepcopy
 import numpy as np
 
 from ..errors import ModelError
-from .beam import Beam
+from .bodies.beam import Beam
 from .model import Model
 
 

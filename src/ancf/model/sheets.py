@@ -6,20 +6,20 @@ from typing import Any
 
 import numpy as np
 
-from .bodies import RigidBody
-from .connections import Spring
-from .contact import Contact
-from .fluids import Fluid
-from .functions import TimeFunction
-from .grounds import Ground, Relief
-from .guides import Cylindrical, Planar
-from .joints import Revolute, Slide
-from .loads import DistributedLoad, Force, Moment
-from .state_function import StateFunction
-from .supports import Clamp, Hold, Pin
+from .bodies.rigid import RigidBody
+from .functions.function import TimeFunction
+from .joints.basic import Revolute, Slide
+from .joints.connections import Spring
+from .joints.guides import Cylindrical, Planar
+from .loads.load import DistributedLoad, Force, Moment
+from .loads.state_function import StateFunction
+from .supports.support import Clamp, Hold, Pin
+from .supports.winch import Winch
+from .surfaces.contact import Contact
+from .surroundings.fluids import Fluid
+from .surroundings.grounds import Ground, Relief
+from .surroundings.velocity_field import VelocityField
 from .tables import number, numbers, plural, with_units
-from .velocity_field import VelocityField
-from .winch import Winch
 
 
 def place(end: Any) -> str:

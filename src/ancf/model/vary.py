@@ -12,16 +12,16 @@ import numpy as np
 
 from ..errors import ModelError
 from . import checks
-from .beam import Beam
-from .bodies import Body, PointMass
+from .bodies.beam import Beam
+from .bodies.rigid import Body, PointMass
 from .describe import section as described
 from .describe import section_of
 from .exchange import exchanged, renewed
-from .functions import Scaled, TimeFunction
-from .inputs import make_input
+from .functions.function import Scaled, TimeFunction
+from .functions.inputs import make_input
 from .kinds import GROUPS, SURROUNDINGS
-from .loads import DistributedLoad
-from .section import DAMPINGS, Section
+from .loads.load import DistributedLoad
+from .sections.section import DAMPINGS, Section
 
 if TYPE_CHECKING:
     from .model import Model

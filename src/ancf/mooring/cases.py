@@ -10,10 +10,10 @@ import numpy as np
 
 from ..analysis import equilibrium, simulate
 from ..arrays import FloatArray
-from ..model.beam import Beam
+from ..model.bodies.beam import Beam
 from ..model.integrators import GeneralizedAlpha
 from ..model.model import Model
-from ..model.section import Section
+from ..model.sections.section import Section
 from ..results.result import Result
 
 GRAVITY = 9.81

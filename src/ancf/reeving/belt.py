@@ -15,11 +15,11 @@ import numpy as np
 
 from ..analysis import equilibrium, simulate
 from ..arrays import FloatArray
+from ..model.bodies.reeving import Reeving
 from ..model.integrators import GeneralizedAlpha
 from ..model.model import Model
-from ..model.reeving import Reeving
-from ..model.section import Section
-from ..model.surface_shapes import Cylinder
+from ..model.sections.section import Section
+from ..model.surfaces.shapes import Cylinder
 from ..results import Result
 
 #: Radius of the belt's axis on the pulleys, half of its thickness, distance of the centres, m.

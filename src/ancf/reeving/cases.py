@@ -9,11 +9,11 @@ import numpy as np
 
 from ..analysis import equilibrium, simulate
 from ..arrays import FloatArray
-from ..model.beam import Beam
+from ..model.bodies.beam import Beam
 from ..model.integrators import Trapezoidal
 from ..model.model import Model
-from ..model.section import Section
-from ..model.surface_shapes import Cylinder, Sheave
+from ..model.sections.section import Section
+from ..model.surfaces.shapes import Cylinder, Sheave
 
 GRAVITY = 9.81
 #: Radius of the drums and of the rope's axis on them, diameter of the rope, m.

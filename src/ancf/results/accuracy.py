@@ -6,7 +6,7 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..errors import ModelError
-from ..model.beam import Beam
+from ..model.bodies.beam import Beam
 from ..model.doubts import doubts
 from ..model.points import Point
 from ..solvers.statics.locking import freed, locked, stiffest

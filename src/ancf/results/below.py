@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import ModelError
-from ..model.bodies import PointMass, RigidBody
+from ..model.bodies.rigid import PointMass, RigidBody
 
 #: Depth that is spoken of, in sizes of the model, and stored states that are looked at.
 SUNK, MOST = 2e-4, 500

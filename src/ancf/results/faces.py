@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any, Protocol
 
 from ..arrays import FloatArray, IntArray
-from ..model.bodies import Body
+from ..model.bodies.rigid import Body
 from ..model.model import Model
 from ..solvers.record import Stats
 

@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 
 from ..arrays import FloatArray
-from ..model.beam import Beam
-from ..model.bodies import RigidBody
-from ..model.joints import Fixation
-from ..model.rigid_joints import Weld
+from ..model.bodies.beam import Beam
+from ..model.bodies.rigid import RigidBody
+from ..model.joints.basic import Fixation
+from ..model.joints.rigid_joints import Weld
 from .state import State
 
 #: A frequency of zero, in parts of the largest; share of a mode's mass by which it is the spin of a body.

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..errors import ModelError
-from ..model.inputs import Input
+from ..model.functions.inputs import Input
 from ..model.model import Model
 from ..model.names import unknown
 from ..model.tables import number

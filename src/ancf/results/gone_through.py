@@ -9,8 +9,8 @@ import numpy as np
 from ..contact.cross import PASSED as OF_RADII
 from ..contact.press import PASSED as OF_SURFACE
 from ..errors import ModelError
-from ..model.cable_contact import CableContact
-from ..model.surfaces import SurfaceContact
+from ..model.surfaces.cable_contact import CableContact
+from ..model.surfaces.surface import SurfaceContact
 
 #: Methods whose steps nothing repeats where a beam goes through: others end there.
 UNWATCHED = ("radau", "explicit")

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from ..arrays import FloatArray
-from ..model.grounds import Ground
 from ..model.integrators import NewmarkFamily
+from ..model.surroundings.grounds import Ground
 from ..system.system import System
 
 #: Angle of the bounce of a cable on a ground in a step, rad, above which impacts make energy.

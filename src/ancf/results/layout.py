@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from ..arrays import IntArray
-from ..model.beam import Beam
-from ..model.bodies import Body
+from ..model.bodies.beam import Beam
+from ..model.bodies.rigid import Body
 from ..system.system import System
 
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ..model.bodies import Body
+from ..model.bodies.rigid import Body
 from ..model.points import Point
 from ..system.sensors import Listing
 

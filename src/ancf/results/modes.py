@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..arrays import FloatArray
-from ..model.bodies import PointMass, RigidBody
+from ..model.bodies.rigid import PointMass, RigidBody
 from ..model.points import Point
 from ..model.tables import Readable, Sheet
 from ..system.fields import Fields

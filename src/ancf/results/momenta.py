@@ -11,7 +11,7 @@ from ..arrays import FloatArray, IntArray
 from ..elements.winched_build import momenta
 from ..errors import ModelError, named
 from ..model import checks
-from ..model.bodies import RigidBody
+from ..model.bodies.rigid import RigidBody
 from ..model.names import unknown
 from ..system.core import inertia
 

@@ -14,12 +14,12 @@ import numpy as np
 
 from ..arrays import FloatArray, IntArray
 from ..errors import ModelError, named
-from ..model.axes import cross
-from ..model.joints import Slide, Spherical
+from ..model.bodies.axes import cross
+from ..model.joints.basic import Slide, Spherical
 from ..model.kind import body_of
 from ..model.kinds import kind_of
 from ..model.points import Point
-from ..model.supports import Support
+from ..model.supports.support import Support
 from ..system.sensors import turning
 from ..system.system import System
 

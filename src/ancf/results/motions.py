@@ -8,8 +8,8 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..errors import ModelError
-from ..model.supports import Support
-from ..model.winch import Winch
+from ..model.supports.support import Support
+from ..model.supports.winch import Winch
 from ..solvers.in_motion import in_motion
 from ..system import reactions
 from ..system.reactions import held_part, support_name

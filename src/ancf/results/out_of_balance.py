@@ -13,11 +13,11 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..errors import ModelError, SolveError
-from ..model.beam import Beam
-from ..model.bodies import PointMass, RigidBody
-from ..model.connections import Spring
+from ..model.bodies.beam import Beam
+from ..model.bodies.rigid import PointMass, RigidBody
+from ..model.joints.connections import Spring
+from ..model.joints.torsion import TorsionSpring
 from ..model.model import Model
-from ..model.torsion import TorsionSpring
 from ..solvers.derivatives.differences_of_forces import Differences
 from ..solvers.modes.damped_modal import rotation_of
 from ..system.core import apply_load, residual

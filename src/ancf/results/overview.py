@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from ..model.beam import Beam
-from ..model.bodies import Body, PointMass
+from ..model.bodies.beam import Beam
+from ..model.bodies.rigid import Body, PointMass
 from ..model.model import Model
 from ..model.overview import body_table, sizes
 from ..model.points import Point

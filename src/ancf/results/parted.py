@@ -12,7 +12,7 @@ import numpy as np
 
 from ..arrays import FloatArray, IntArray
 from ..errors import ModelError, called, named
-from ..model.joints import Spherical
+from ..model.joints.basic import Spherical
 from ..model.points import Point
 from ..system.core import apply_load, place_supports, residual
 from ..system.redundancy import independent

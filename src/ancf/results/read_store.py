@@ -13,7 +13,7 @@ from ..arrays import FloatArray, IntArray
 from ..errors import ModelError
 from ..files import results_at
 from ..model import checks
-from ..model.bodies import Body
+from ..model.bodies.rigid import Body
 from ..model.model import Model
 from ..solvers.record import Stats
 from ..system.sensors import Listing

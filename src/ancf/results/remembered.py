@@ -19,9 +19,9 @@ from ..compiled import traits
 from ..connections.contact_touch import ARC
 from ..connections.sliding import FREE, FROZEN, SLIDES, SlidingBatch
 from ..errors import ModelError
-from ..model.contact import Contact
-from ..model.joints import Slide
+from ..model.joints.basic import Slide
 from ..model.model import Model
+from ..model.surfaces.contact import Contact
 from ..system.core import keep_memory
 from ..system.system import System
 

@@ -15,7 +15,7 @@ from ..arrays import FloatArray
 from ..errors import ModelError, StorageError
 from ..files import writing
 from ..model import checks
-from ..model.joints import Slide
+from ..model.joints.basic import Slide
 from ..model.tables import Readable, Sheet
 from ..solvers.record import Stats
 from ..system.contact_fields import ContactFields

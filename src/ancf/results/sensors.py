@@ -11,10 +11,10 @@ import numpy as np
 from ..arrays import FloatArray
 from ..connections.spring_damper import DISTANCE, FORCE
 from ..errors import ModelError, named
-from ..model.bodies import PointMass, RigidBody
-from ..model.connections import Spring
-from ..model.held import support_asked
+from ..model.bodies.rigid import PointMass, RigidBody
+from ..model.joints.connections import Spring
 from ..model.points import Point
+from ..model.supports.held import support_asked
 from ..system.contact_fields import ContactFields
 from ..system.probe import BeamProbe, Probe, R, locate
 from ..system.redundancy import independent

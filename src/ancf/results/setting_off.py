@@ -8,12 +8,12 @@ from collections.abc import Callable, Iterator
 import numpy as np
 
 from ..arrays import FloatArray, IntArray
-from ..model.bodies import Body
-from ..model.elsewhere import INITIAL, elsewhere, length_said, miss_said
-from ..model.jumps import SHARE
-from ..model.sudden import sudden
-from ..model.supports import Support
-from ..model.winch import Winch
+from ..model.bodies.rigid import Body
+from ..model.supports.elsewhere import INITIAL, elsewhere, length_said, miss_said
+from ..model.supports.jumps import SHARE
+from ..model.supports.sudden import sudden
+from ..model.supports.support import Support
+from ..model.supports.winch import Winch
 from ..system.initial_motion import at_rest
 from ..system.nodes import node_of
 from ..system.system import System

@@ -13,7 +13,7 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..elements.slopes import Vectors, vectors_of
-from ..model.beam import Beam
+from ..model.bodies.beam import Beam
 from .tension import cables, parts
 
 #: Curvature times length of an element above which it is said, and that of the elements that are advised.

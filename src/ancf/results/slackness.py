@@ -11,8 +11,8 @@ import numpy as np
 from ..arrays import FloatArray, IntArray
 from ..errors import ModelError, named
 from ..model import checks
-from ..model.beam import Beam
-from ..model.connections import Spring
+from ..model.bodies.beam import Beam
+from ..model.joints.connections import Spring
 from ..model.names import unknown
 from .tension import cables, middles, pieces
 

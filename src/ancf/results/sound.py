@@ -17,8 +17,8 @@ from numpy.typing import NDArray
 from ..arrays import FloatArray
 from ..errors import ModelError
 from ..model import checks
-from ..model.beam import NODE_TOLERANCE, Beam
-from ..model.joints import Slide
+from ..model.bodies.beam import NODE_TOLERANCE, Beam
+from ..model.joints.basic import Slide
 from ..model.model import Model
 from ..model.points import Point
 from ..system.nodes import layout

@@ -11,7 +11,7 @@ import numpy as np
 from ..arrays import FloatArray
 from ..contact.fields import ContactLine, contact_line
 from ..errors import ModelError, named
-from ..model.surfaces import SurfaceContact
+from ..model.surfaces.surface import SurfaceContact
 from ..model.tables import Readable, Sheet
 from ..solvers.record import Stats
 from ..system.contact_fields import ContactFields

@@ -19,7 +19,7 @@ from ..arrays import FloatArray
 from ..errors import ModelError, StorageError
 from ..files import problem, writing
 from ..model import checks
-from ..model.bodies import Body
+from ..model.bodies.rigid import Body
 from ..solvers.checkpoint import Snapshot
 from ..solvers.record import Stats
 from ..solvers.status import COUNTS

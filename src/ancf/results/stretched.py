@@ -13,7 +13,7 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..elements.slopes import mean_strain, vectors_of
-from ..model.beam import Beam
+from ..model.bodies.beam import Beam
 from .tension import middles, natural_vectors, of_material, parts
 
 #: Strain from which on it is said: steel yields at 0.002, ropes of polyester break at about 0.15.

@@ -15,7 +15,7 @@ import numpy as np
 
 from ..arrays import FloatArray, IntArray
 from ..elements.slopes import Vectors, mean_strain, slope, vectors_of
-from ..model.beam import Beam
+from ..model.bodies.beam import Beam
 
 #: Element forces that are computed at once, and in all: of a longer history every second, third, ... state.
 CHUNK, MOST = 100_000, 2_000_000

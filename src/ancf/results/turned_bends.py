@@ -13,7 +13,7 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..elements.slopes import Vectors, slope, vectors_of
-from ..model.beam import Beam
+from ..model.bodies.beam import Beam
 from .tension import extremes, natural_vectors
 
 #: Share of the change of the bends that turning may take unsaid; smaller changes of a bend are none.

@@ -10,9 +10,9 @@ from __future__ import annotations
 import numpy as np
 
 from ..arrays import FloatArray
-from ..model.beam import Beam
+from ..model.bodies.beam import Beam
 from ..model.elements import KINDS
-from ..model.supports import Clamp
+from ..model.supports.support import Clamp
 from ..system.nodes import node_of, start_vectors
 from ..system.system import System
 

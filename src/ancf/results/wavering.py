@@ -16,7 +16,7 @@ import numpy as np
 from ..arrays import FloatArray
 from ..elements.shapes import gauss
 from ..elements.slopes import POINTS, Vectors, mean_strain, slope, vectors_of
-from ..model.beam import Beam
+from ..model.bodies.beam import Beam
 from .tension import cables, natural_vectors, of_material, parts
 
 #: Share of the largest force of a cable from which a wavering is said: at rest, and in a motion, in which

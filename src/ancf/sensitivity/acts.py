@@ -4,20 +4,20 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..model.beam import Beam
-from ..model.bodies import PointMass, RigidBody
-from ..model.body_contact import BodyContact
-from ..model.cable_contact import CableContact
-from ..model.connections import Spring
-from ..model.contact import Contact
-from ..model.followers import Pressure
-from ..model.functions import TimeFunction
-from ..model.joints import Slide, Spherical
-from ..model.loads import DistributedLoad, Force, Moment
+from ..model.bodies.beam import Beam
+from ..model.bodies.rigid import PointMass, RigidBody
+from ..model.functions.function import TimeFunction
+from ..model.joints.basic import Slide, Spherical
+from ..model.joints.connections import Spring
+from ..model.loads.followers import Pressure
+from ..model.loads.load import DistributedLoad, Force, Moment
 from ..model.model import Model
-from ..model.section import DAMPINGS
-from ..model.surfaces import SurfaceContact
-from ..model.winches import by_body
+from ..model.sections.section import DAMPINGS
+from ..model.supports.winches import by_body
+from ..model.surfaces.body_contact import BodyContact
+from ..model.surfaces.cable_contact import CableContact
+from ..model.surfaces.contact import Contact
+from ..model.surfaces.surface import SurfaceContact
 from ..system.beside import (
     BODIES,
     BUMPING,

@@ -11,8 +11,8 @@ import numpy as np
 from ..arrays import FloatArray
 from ..batches import Batches
 from ..compiled import Role, traits
-from ..model.bodies import PointMass
-from ..model.joints import Slide
+from ..model.bodies.rigid import PointMass
+from ..model.joints.basic import Slide
 from ..system.core import Tables
 from ..system.initial_motion import at_rest
 from ..system.system import System

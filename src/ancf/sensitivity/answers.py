@@ -12,8 +12,8 @@ import numpy as np
 from ..arrays import FloatArray
 from ..errors import ModelError
 from ..model import checks
-from ..model.beam import Beam
-from ..model.bodies import Body
+from ..model.bodies.beam import Beam
+from ..model.bodies.rigid import Body
 from ..model.describe import point as point_text
 from ..model.lookup import parse_point
 from ..model.points import Point

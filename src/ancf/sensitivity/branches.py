@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..arrays import BoolArray, FloatArray
-from ..model.connections import Spring
+from ..model.joints.connections import Spring
 from ..model.kinds import kind_of
 
 

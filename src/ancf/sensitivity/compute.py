@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ..model.connections import Spring
+from ..model.joints.connections import Spring
 from ..model.settings import steps_between
 from ..preparation import Prepared, carried_out
 from ..results.result import Result

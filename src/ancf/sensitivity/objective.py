@@ -14,7 +14,7 @@ import numpy as np
 from ..arrays import FloatArray, IntArray
 from ..compiled import add_measured_work, does_something
 from ..connections.contact_touch import ARC, FORCE, OVERLAP
-from ..model.contact import Contact
+from ..model.surfaces.contact import Contact
 from ..solvers.sampling import Meters, measured_works, meters_of
 from ..system.system import System
 from .answers import LINEAR, Face

@@ -9,13 +9,13 @@ from typing import Any
 
 from ..errors import ModelError
 from ..model import checks
-from ..model.beam import Beam
-from ..model.bodies import PointMass, RigidBody
-from ..model.connections import Spring
+from ..model.bodies.beam import Beam
+from ..model.bodies.rigid import PointMass, RigidBody
+from ..model.joints.connections import Spring
 from ..model.model import Model
-from ..model.section import DAMPINGS
+from ..model.sections.section import DAMPINGS
+from ..model.supports.winches import by_body
 from ..model.vary import renewal
-from ..model.winches import by_body
 from ..system.beside import Acts
 from .acts import WET, acts_of
 

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..arrays import FloatArray
-from ..model.bodies import Body
+from ..model.bodies.rigid import Body
 from ..model.lookup import parse_point
 from ..model.points import Point
 from ..results.sensors import Sensors

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..arrays import FloatArray
-from ..model.beam import Beam
+from ..model.bodies.beam import Beam
 from ..model.model import Model
 from ..system.beside import Acts
 from ..system.initial_motion import at_rest, spin_of, spun

@@ -5,7 +5,7 @@ from __future__ import annotations
 from ..arrays import FloatArray
 from ..connections.sliding import FREE, FROZEN, LEFT, PULLS, SlidingBatch
 from ..errors import SolveError
-from ..model.joints import Slide
+from ..model.joints.basic import Slide
 from ..system.system import System
 
 

@@ -17,13 +17,13 @@ from ..elements.registry import offered
 from ..loads.fluid import renumbered as in_fluids
 from ..loads.ground import renumbered as on_ground
 from ..loads.pressure import renumbered as again_pressed
-from ..model.beam import Beam
-from ..model.body_contact import BodyContact
-from ..model.cable_contact import CableContact
-from ..model.contact import Contact
+from ..model.bodies.beam import Beam
 from ..model.model import Model
 from ..model.points import Point
-from ..model.surfaces import SurfaceContact
+from ..model.surfaces.body_contact import BodyContact
+from ..model.surfaces.cable_contact import CableContact
+from ..model.surfaces.contact import Contact
+from ..model.surfaces.surface import SurfaceContact
 from .compile import Parts, beams_by_kind, bind_parts, build_bodies, build_slides, has_mass_of_its_own
 from .inputs import Inputs
 from .probe import Probe, locate

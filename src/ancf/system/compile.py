@@ -32,18 +32,18 @@ from ..elements.registry import ELEMENTS
 from ..elements.workspace import workspace
 from ..linalg.block_ldl import allocate
 from ..linalg.ordering import MINIMUM_DEGREE, behind, from_both_ends, order
-from ..model.beam import Beam
-from ..model.body_contact import BodyContact
-from ..model.cable_contact import CableContact
-from ..model.connections import Spring
-from ..model.contact import Contact
-from ..model.joints import Slide
+from ..model.bodies.beam import Beam
+from ..model.joints.basic import Slide
+from ..model.joints.connections import Spring
+from ..model.joints.torsion import TorsionSpring
 from ..model.model import Model
 from ..model.points import Point
-from ..model.section_inertia import of_cable
-from ..model.surfaces import SurfaceContact
-from ..model.torsion import TorsionSpring
-from ..model.winches import by_body
+from ..model.sections.inertia import of_cable
+from ..model.supports.winches import by_body
+from ..model.surfaces.body_contact import BodyContact
+from ..model.surfaces.cable_contact import CableContact
+from ..model.surfaces.contact import Contact
+from ..model.surfaces.surface import SurfaceContact
 from . import loads
 from .core import Core, Joints, Loads, Supports
 from .far import no_far

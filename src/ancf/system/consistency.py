@@ -11,9 +11,9 @@ from ..arrays import FloatArray, IntArray
 from ..errors import ModelError
 from ..later import csc_array, null_space, splu, svd
 from ..linalg.sparse import to_sparse
-from ..model.functions import TimeFunction
-from ..model.joints import Slide
-from ..model.touching import bodies_of
+from ..model.functions.function import TimeFunction
+from ..model.joints.basic import Slide
+from ..model.joints.touching import bodies_of
 from .core import assemble, constraints, restrict
 from .system import System
 

@@ -14,11 +14,11 @@ from ..contact.cross_fields import cross_pressures, grip_frictions
 from ..contact.fields import frictions, pressures
 from ..contact.rubbed import RUBBED, SLIPPED
 from ..errors import ModelError, called, named
-from ..model.body_contact import BodyContact
-from ..model.cable_contact import CableContact
-from ..model.contact import Contact
 from ..model.model import Model
-from ..model.surfaces import SurfaceContact
+from ..model.surfaces.body_contact import BodyContact
+from ..model.surfaces.cable_contact import CableContact
+from ..model.surfaces.contact import Contact
+from ..model.surfaces.surface import SurfaceContact
 from .slide_fields import SlideFields
 from .system import System
 

@@ -9,7 +9,7 @@ import numpy as np
 from ..arrays import FloatArray
 from ..connections.joint_build import Vector, axis_of
 from ..errors import ModelError, called, named
-from ..model.rigid_joints import Universal
+from ..model.joints.rigid_joints import Universal
 from .joint_travels import JointTravels
 from .joint_vectors import dot, recorded, values_of
 

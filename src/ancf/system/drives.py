@@ -17,7 +17,7 @@ import math
 import numpy as np
 
 from ..arrays import FloatArray
-from ..model.winch import Winch
+from ..model.supports.winch import Winch
 
 
 def driven_steps(

@@ -13,8 +13,8 @@ from ..arrays import FloatArray, IntArray
 from ..elements.measures import axial_strain, axial_strain_rate, curvature, normal_curvature
 from ..elements.shapes import gauss, hermite
 from ..errors import ModelError
-from ..model.beam import Beam
-from ..model.bodies import Body, PointMass, RigidBody, kind
+from ..model.bodies.beam import Beam
+from ..model.bodies.rigid import Body, PointMass, RigidBody, kind
 from ..model.lookup import own_point, parse_point
 from ..model.names import unknown
 from ..model.other_words import OF_RESULT, hint_of

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from ..arrays import FloatArray
-from ..model.beam import Beam
-from ..model.bodies import Body, PointMass
-from ..model.initial_velocity import rates_at
+from ..model.bodies.beam import Beam
+from ..model.bodies.initial_velocity import rates_at
+from ..model.bodies.rigid import Body, PointMass
 from .nodes import layout
 
 

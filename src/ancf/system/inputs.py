@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import FloatArray
-from ..model.functions import TimeFunction
-from ..model.winch import Winch
+from ..model.functions.function import TimeFunction
+from ..model.supports.winch import Winch
 from .core import Tables
 from .drives import acceleration_from, driven_steps
 from .supports import Constraints, Motion, Rotation

@@ -10,10 +10,10 @@ from ..arrays import FloatArray
 from ..connections.torsion import TorsionBatch
 from ..connections.torsion_build import torsion_springs
 from ..errors import ModelError, called, named
-from ..model.guides import Cylindrical, Planar, Prismatic
-from ..model.joints import Revolute
-from ..model.rigid_joints import Universal
-from ..model.torsion import TorsionSpring
+from ..model.joints.basic import Revolute
+from ..model.joints.guides import Cylindrical, Planar, Prismatic
+from ..model.joints.rigid_joints import Universal
+from ..model.joints.torsion import TorsionSpring
 from .torsion_fields import TorsionFields, angle_of, is_known, rate_of
 
 #: Joints with one axis about which their bodies turn; of these a prismatic one does not.

@@ -6,7 +6,7 @@ from typing import Any
 
 from ..arrays import FloatArray, IntArray
 from ..errors import ModelError, called, named
-from ..model.joints import Slide, Spherical
+from ..model.joints.basic import Slide, Spherical
 
 
 class JointFields:

@@ -9,7 +9,7 @@ import numpy as np
 from ..arrays import FloatArray
 from ..connections.joint_build import Vector, axis_of, place_of
 from ..errors import ModelError, called, named
-from ..model.guides import Cylindrical
+from ..model.joints.guides import Cylindrical
 from ..model.points import Point, initial_position
 from .fields import Fields
 from .joint_angles import JointAngles

@@ -12,15 +12,15 @@ from ..arrays import FloatArray, IntArray
 from ..elements.shapes import gauss, hermite
 from ..loads.moment import MomentBatch
 from ..loads.section_moment import SectionMomentBatch
-from ..model.beam import Beam
-from ..model.bodies import Body
-from ..model.functions import TimeFunction
-from ..model.joints import Slide
+from ..model.bodies.beam import Beam
+from ..model.bodies.rigid import Body
+from ..model.functions.function import TimeFunction
+from ..model.joints.basic import Slide
 from ..model.kind import Kind
 from ..model.kinds import LOADS, SURROUNDINGS, kind_of
-from ..model.loads import DistributedLoad, Force, Moment
+from ..model.loads.load import DistributedLoad, Force, Moment
 from ..model.model import Model
-from ..model.winches import by_body
+from ..model.supports.winches import by_body
 from .probe import R_X, R_Y, R_Z, Probe, R
 
 Pattern = tuple[IntArray, FloatArray]  # slots and factors

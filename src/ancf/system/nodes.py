@@ -17,8 +17,8 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..elements.registry import ELEMENTS
-from ..model.beam import Beam
-from ..model.bodies import Body, PointMass, RigidBody
+from ..model.bodies.beam import Beam
+from ..model.bodies.rigid import Body, PointMass, RigidBody
 from ..model.elements import KINDS
 
 

@@ -10,12 +10,12 @@ from numpy.typing import NDArray
 
 from ..arrays import IntArray
 from ..connections.joint_build import Row, rigid, rows_of
-from ..model.bodies import RigidBody
-from ..model.connections import Spherical
-from ..model.joints import Slide
+from ..model.bodies.rigid import RigidBody
+from ..model.joints.basic import Slide
+from ..model.joints.connections import Spherical
 from ..model.model import Model
 from ..model.points import Point
-from ..model.winches import by_body
+from ..model.supports.winches import by_body
 from .nodes import is_loop, layout, names_of, node_of
 from .probe import Probe, locate
 

@@ -9,12 +9,12 @@ import numpy as np
 
 from ..arrays import FloatArray, IntArray
 from ..elements.registry import ELEMENTS
-from ..model.beam import Beam
-from ..model.bodies import Body
+from ..model.bodies.beam import Beam
+from ..model.bodies.rigid import Body
 from ..model.elements import KINDS
 from ..model.model import Model
 from ..model.points import Point
-from ..model.winches import by_body
+from ..model.supports.winches import by_body
 
 #: Rows of a probe's factors; a cable has the first three.
 R, R_X, R_XX, R_Y, R_Z, R_YX, R_ZX = range(7)

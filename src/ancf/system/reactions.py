@@ -8,8 +8,8 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..errors import ModelError
-from ..model.connections import Spring
-from ..model.held import support_asked
+from ..model.joints.connections import Spring
+from ..model.supports.held import support_asked
 from .core import apply_load, residual
 from .system import System
 

@@ -13,8 +13,8 @@ from ..elements.shapes import gauss
 from ..elements.solid_build import stiffnesses
 from ..elements.solid_shapes import initial_vectors
 from ..elements.solid_strains import Vectors, dot, scalar_products
-from ..model.axes import cross
-from ..model.beam import Beam
+from ..model.bodies.axes import cross
+from ..model.bodies.beam import Beam
 from .probe import R_X, R_Y, R_YX, R_Z, R_ZX, BeamProbe
 
 

@@ -10,15 +10,15 @@ import numpy as np
 
 from ..arrays import IntArray
 from ..connections.torsion_build import torsion_springs
-from ..model.beam import Beam
-from ..model.connections import Connection, Spring
-from ..model.contact import Contact
-from ..model.joints import Slide
+from ..model.bodies.beam import Beam
+from ..model.joints.basic import Slide
+from ..model.joints.connections import Connection, Spring
+from ..model.joints.torsion import TorsionSpring
 from ..model.kind import body_of
 from ..model.kinds import kind_of
 from ..model.points import Point
-from ..model.supports import Support
-from ..model.torsion import TorsionSpring
+from ..model.supports.support import Support
+from ..model.surfaces.contact import Contact
 from .probe import Probe, R
 
 

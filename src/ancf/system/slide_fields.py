@@ -9,7 +9,7 @@ import numpy as np
 from ..arrays import FloatArray
 from ..connections.sliding_build import carrier_line
 from ..errors import called
-from ..model.joints import Slide
+from ..model.joints.basic import Slide
 from .joint_fields import JointFields
 
 

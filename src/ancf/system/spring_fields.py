@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from ..arrays import FloatArray
-from ..model.connections import Spring
+from ..model.joints.connections import Spring
 from ..model.names import unknown
 from ..model.points import Point
 from .cross_angles import CrossAngles

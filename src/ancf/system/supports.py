@@ -9,13 +9,13 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..errors import ModelError
-from ..model.beam import Beam
-from ..model.bodies import Body, RigidBody
-from ..model.functions import TimeFunction
-from ..model.joints import Slide
+from ..model.bodies.beam import Beam
+from ..model.bodies.rigid import Body, RigidBody
+from ..model.functions.function import TimeFunction
+from ..model.joints.basic import Slide
 from ..model.model import Model
-from ..model.supports import Clamp, Hold, Pin, Support
-from ..model.winch import Winch
+from ..model.supports.support import Clamp, Hold, Pin, Support
+from ..model.supports.winch import Winch
 from .nodes import node_of, start_vectors
 from .numbering import Numbering
 

@@ -13,18 +13,18 @@ from ..compiled import Role, traits, with_role
 from ..connections.spring_damper import gauges
 from ..errors import ModelError
 from ..linalg.ordering import fill_pattern
-from ..model.beam import Beam
-from ..model.bodies import PointMass
-from ..model.body_contact import BodyContact
-from ..model.cable_contact import CableContact
-from ..model.connections import Spring
-from ..model.contact import Contact
-from ..model.joints import Slide
+from ..model.bodies.beam import Beam
+from ..model.bodies.rigid import PointMass
+from ..model.joints.basic import Slide
+from ..model.joints.connections import Spring
+from ..model.joints.touching import bodies_of
 from ..model.model import Model
 from ..model.points import Point
-from ..model.surfaces import SurfaceContact
-from ..model.touching import bodies_of
-from ..model.winches import check_winches
+from ..model.supports.winches import check_winches
+from ..model.surfaces.body_contact import BodyContact
+from ..model.surfaces.cable_contact import CableContact
+from ..model.surfaces.contact import Contact
+from ..model.surfaces.surface import SurfaceContact
 from . import loads
 from .compile import bind_parts, build_parts, held_arrays, order_blocks
 from .core import Core, place_supports

@@ -10,8 +10,8 @@ from ..arrays import FloatArray
 from ..connections.torsion import TorsionBatch
 from ..connections.torsion_build import torsion_springs
 from ..errors import ModelError, named
+from ..model.joints.torsion import TorsionSpring
 from ..model.names import unknown
-from ..model.torsion import TorsionSpring
 from .fields import Fields
 
 #: Under which name a system keeps how far its torsion springs have turned.

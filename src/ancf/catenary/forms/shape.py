@@ -12,7 +12,7 @@ import ancf
 from ...arrays import FloatArray, IntArray
 from ...errors import ModelError
 from ...model import checks
-from ...model.beam import Beam
+from ...model.bodies.beam import Beam
 from ...model.points import Point
 from ..lines.wire import Rayleigh, Wire
 from .mesh import Nodes

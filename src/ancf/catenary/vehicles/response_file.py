@@ -14,7 +14,7 @@ from ...columns import read_columns
 from ...errors import ModelError
 from ...files import write_text
 from ...model.checks import listed
-from ...model.units import in_plain_units
+from ...model.functions.units import in_plain_units
 from .pantograph import Pantograph
 
 FREQUENCY = "frequency"

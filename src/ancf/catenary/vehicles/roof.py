@@ -10,8 +10,8 @@ from typing import Any
 from ...columns import read_columns, split_unit
 from ...errors import ModelError
 from ...model import checks
-from ...model.functions import TimeFunction
-from ...model.series import Series
+from ...model.functions.function import TimeFunction
+from ...model.functions.series import Series
 from .travel import Travel
 
 WAYS = ("up", "side")

@@ -15,7 +15,7 @@ from ...errors import ModelError
 from ...files import exists
 from ...reading import as_input
 from ..checks import nearest
-from ..inputs import first_values, named
+from ..functions.inputs import first_values, named
 from ..model import Model
 from ..settings import EquilibriumSettings, SimulationSettings
 from . import parameters

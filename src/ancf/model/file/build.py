@@ -7,14 +7,14 @@ from contextlib import contextmanager
 from typing import Any, TypeVar
 
 from ...errors import ModelError
-from ..bodies import Body
+from ..bodies.reeving import Reeving
+from ..bodies.rigid import Body
 from ..integrators import integrator_of
 from ..kinds import GROUPS, SURROUNDINGS
 from ..model import Model
 from ..names import unknown
 from ..rebuild import add_item, add_surrounding
-from ..reeving import Reeving
-from ..section import Section
+from ..sections.section import Section
 from ..settings import EquilibriumSettings, SimulationSettings
 from .entries import (
     AnyBody,

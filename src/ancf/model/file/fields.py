@@ -21,11 +21,11 @@ from pydantic_core import PydanticCustomError
 
 from ...errors import ModelError
 from .. import checks
-from ..bodies import as_inertia
+from ..bodies.rigid import as_inertia
 from ..elements import KINDS
-from ..functions import TimeFunction
+from ..functions.function import TimeFunction
 from ..integrators import INTEGRATORS, integrator_of, table_schema
-from ..state_function import check_force
+from ..loads.state_function import check_force
 from .parameters import Naming, kind_of, resolved, words_of
 
 if TYPE_CHECKING:  # the names are known at run time alone

@@ -7,7 +7,7 @@ from typing import Any
 
 from ...errors import ModelError
 from .. import checks
-from ..series import FILE_KEYS, read_table
+from ..functions.series import FILE_KEYS, read_table
 
 #: Keys that say what to read; the others stay for who follows the series.
 OF_FILE = ("csv", "column", "unit", "time", "time_unit")

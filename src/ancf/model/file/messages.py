@@ -11,7 +11,7 @@ from pydantic import ValidationError
 
 from ...errors import ModelError
 from ..checks import ALL, listed, nearest, shown
-from ..expression import QUANTITY
+from ..functions.expression import QUANTITY
 from ..kinds import GROUPS
 from ..other_words import argument_of
 from .entries import NESTED, TAGGED, FileEntry

@@ -12,8 +12,8 @@ from typing import Annotated, Any, Literal, Union, get_args, get_origin
 
 from ...errors import ModelError
 from .. import checks
-from ..expression import Expression
-from ..inputs import NAME, TAKEN
+from ..functions.expression import Expression
+from ..functions.inputs import NAME, TAKEN
 
 #: Parameters that formulas may name where a file is read, None where a text is no formula of parameters.
 _known: ContextVar[Mapping[str, float] | None] = ContextVar("parameters", default=None)

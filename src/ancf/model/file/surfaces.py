@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias, Union
 
 from pydantic import Discriminator, Field, Tag, create_model
 
-from ..shape import Shape
-from ..surface_shapes import SHAPES
+from ..surfaces.shape import Shape
+from ..surfaces.shapes import SHAPES
 from . import fields
 
 _TYPES: dict[str, Any] = {

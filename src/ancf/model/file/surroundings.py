@@ -6,10 +6,10 @@ from typing import Annotated, Any
 
 from pydantic import Field, WithJsonSchema
 
-from ..grounds import height_of
-from ..gusts import Gusts
-from ..velocity_field import VelocityField
-from ..waves import SPECTRA, STRETCHINGS, Waves
+from ..surroundings.grounds import height_of
+from ..surroundings.gusts import Gusts
+from ..surroundings.velocity_field import VelocityField
+from ..surroundings.waves import SPECTRA, STRETCHINGS, Waves
 from .fields import Entry, NonNegative, Positive, Vector, checked, of_schemas, vector_schema
 
 _NUMBER = {"type": "number"}

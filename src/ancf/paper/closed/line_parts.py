@@ -8,8 +8,8 @@ import ancf
 
 from ... import catenary
 from ...arrays import FloatArray
-from ...model.bodies import RigidBody
-from ...model.contact import Contact
+from ...model.bodies.rigid import RigidBody
+from ...model.surfaces.contact import Contact
 from ..check import Check
 
 G = 9.81  # m/s^2

@@ -14,7 +14,7 @@ import ancf
 
 from ... import catenary
 from ...catenary.answers.signals import Butterworth
-from ...model.bodies import PointMass
+from ...model.bodies.rigid import PointMass
 from ..check import Check
 
 LENGTH, SPANS, SHARED = 40.0, 7, 4

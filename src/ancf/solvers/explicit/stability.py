@@ -15,8 +15,8 @@ from ...arrays import FloatArray
 from ...errors import SolveError
 from ...later import csc_array, eigh_tridiagonal
 from ...linalg.sparse import to_sparse
-from ...model.cable_contact import CableContact
-from ...model.surfaces import SurfaceContact
+from ...model.surfaces.cable_contact import CableContact
+from ...model.surfaces.surface import SurfaceContact
 from ...system.core import assemble, restrict, solve_matrix
 from ...system.system import System
 from .steps import mass_factor

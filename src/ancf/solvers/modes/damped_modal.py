@@ -21,7 +21,7 @@ from ...elements.solid import SolidBatch
 from ...errors import SolveError
 from ...later import coo_array, csc_array
 from ...linalg.sparse import to_sparse
-from ...model.winch import Winch
+from ...model.supports.winch import Winch
 from ...system.at_rest import assemble_at_rest
 from ...system.contacts import Touching, touching
 from ...system.core import Core, apply_load, follow_supports, residual

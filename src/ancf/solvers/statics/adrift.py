@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...errors import SolveError
-from ...model.beam import Beam
+from ...model.bodies.beam import Beam
 from .iteration import COUNTED_MU, LEAST_MU, Iteration
 
 ALONE = 1e-3  # of mu: what the square of a vibration may differ from it, if mu alone holds that

@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from ...errors import ModelError
+from ...model.joints.touching import bodies_of, to_ground
 from ...model.kinds import kind_of
-from ...model.loads import Force
+from ...model.loads.load import Force
+from ...model.loads.state_function import StateFunction
 from ...model.points import initial_position
-from ...model.state_function import StateFunction
-from ...model.touching import bodies_of, to_ground
 from ...system.system import System
 
 

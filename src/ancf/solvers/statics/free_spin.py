@@ -14,7 +14,7 @@ import numpy as np
 
 from ...arrays import FloatArray, IntArray
 from ...later import csc_array
-from ...model.axes import cross
+from ...model.bodies.axes import cross
 from ...system.system import System
 
 Solve = Callable[[FloatArray], FloatArray]

@@ -13,8 +13,8 @@ from ...compiled import traits
 from ...errors import SolveError
 from ...later import LinearOperator, SuperLU, gmres, splu
 from ...linalg.sparse import to_sparse
-from ...model.beam import Beam
-from ...model.joints import Slide
+from ...model.bodies.beam import Beam
+from ...model.joints.basic import Slide
 from ...system.at_rest import assemble_at_rest
 from ...system.contacts import strips_touch, touching
 from ...system.core import (

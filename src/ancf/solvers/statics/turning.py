@@ -12,7 +12,7 @@ import numpy as np
 
 from ...compiled import traits
 from ...model.model import Model
-from ...model.supports import Clamp
+from ...model.supports.support import Clamp
 from ...system.core import Tables, keep_memory, place_supports
 from ...system.inputs import MOMENT, Inputs
 from .iteration import Iteration

@@ -18,7 +18,7 @@ import numpy as np
 
 from ...arrays import FloatArray, IntArray
 from ...compiled import formula
-from ...model.beam import Beam
+from ...model.bodies.beam import Beam
 from ...records import recorded
 from ...simd import LANES, gather, gather_nodes, load, put_nodes, store, vector
 from ...system.system import System

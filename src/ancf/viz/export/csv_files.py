@@ -8,8 +8,8 @@ from pathlib import Path
 from ...errors import ModelError
 from ...files import writing
 from ...model import checks
-from ...model.beam import Beam
-from ...model.bodies import PointMass
+from ...model.bodies.beam import Beam
+from ...model.bodies.rigid import PointMass
 from ...results.result import Result
 from . import tables
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from ...errors import ModelError, named
 from ...model import checks
-from ...model.beam import Beam
+from ...model.bodies.beam import Beam
 from ...model.kind import TORSION
 from ...model.points import Point
 from ...results.sensors import Sensors

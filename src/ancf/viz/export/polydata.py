@@ -13,7 +13,7 @@ from ...arrays import FloatArray, IntArray
 from ...errors import ModelError
 from ...files import drafted, writing
 from ...model import checks
-from ...model.beam import Beam
+from ...model.bodies.beam import Beam
 from ...results.modes import Modes
 from ..scene import QUANTITIES, Scene, make_scene
 from ..scene.sampling import CORNERS

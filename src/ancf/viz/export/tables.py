@@ -11,9 +11,9 @@ import numpy as np
 
 from ...arrays import FloatArray
 from ...files import cell, drafted
-from ...model.beam import Beam
+from ...model.bodies.beam import Beam
 from ...model.points import Point
-from ...model.supports import Clamp
+from ...model.supports.support import Clamp
 from ...results.result import Result
 from ...results.sensors import Sensors
 

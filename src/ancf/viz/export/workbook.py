@@ -9,7 +9,7 @@ from typing import Any
 
 from ...errors import ModelError
 from ...files import cell, drafted, writing
-from ...model.inputs import Input
+from ...model.functions.inputs import Input
 from ...results.result import Result
 from .csv_files import all_tables
 from .frames import library

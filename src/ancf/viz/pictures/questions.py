@@ -9,14 +9,14 @@ import numpy as np
 from ...arrays import FloatArray
 from ...errors import ModelError
 from ...model import checks
-from ...model.beam import Beam
-from ...model.bodies import PointMass, RigidBody
-from ...model.inputs import Input
+from ...model.bodies.beam import Beam
+from ...model.bodies.rigid import PointMass, RigidBody
+from ...model.functions.inputs import Input
 from ...model.kind import CONTACT, JOINT, SLIDE, SPRING, SURFACE_CONTACT, TORSION
 from ...model.kinds import CONNECTIONS, kind_of
 from ...model.names import POINT_LABEL
 from ...model.points import Point
-from ...model.supports import Clamp, Hold, Pin
+from ...model.supports.support import Clamp, Hold, Pin
 
 
 class Question(NamedTuple):

@@ -13,11 +13,11 @@ import numpy as np
 
 from ...arrays import FloatArray
 from ...errors import ModelError
-from ...model.beam import Beam
+from ...model.bodies.beam import Beam
 from ...model.kind import Push
 from ...model.kinds import FLUID, kind_of, pushing
+from ...model.loads.state_function import StateFunction
 from ...model.points import Point
-from ...model.state_function import StateFunction
 from .parts import Arrow
 from .streams import stream
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from ...arrays import BoolArray, FloatArray
 from ...contact.combs import FORCE, PLACE, SLIDE, teeth
-from ...model.surfaces import SurfaceContact
+from ...model.surfaces.surface import SurfaceContact
 from .parts import Comb
 
 #: Length of the longest tooth, in sizes of what is drawn.

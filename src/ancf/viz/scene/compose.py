@@ -13,16 +13,16 @@ from ...contact.cross_fields import cross_places
 from ...contact.fields import nearest_places
 from ...errors import ModelError
 from ...model import checks
-from ...model.beam import Beam
-from ...model.bodies import PointMass, RigidBody
-from ...model.body_contact import BodyContact
-from ...model.cable_contact import CableContact
-from ...model.contact import Contact
-from ...model.joints import Spherical
+from ...model.bodies.beam import Beam
+from ...model.bodies.rigid import PointMass, RigidBody
+from ...model.joints.basic import Spherical
 from ...model.kind import body_of
 from ...model.kinds import kind_of
 from ...model.points import Point
-from ...model.surfaces import SurfaceContact
+from ...model.surfaces.body_contact import BodyContact
+from ...model.surfaces.cable_contact import CableContact
+from ...model.surfaces.contact import Contact
+from ...model.surfaces.surface import SurfaceContact
 from ...results.modes import Modes
 from ...results.result import Result
 from ...results.state import State

@@ -7,11 +7,11 @@ from typing import Any
 import numpy as np
 
 from ...arrays import FloatArray
-from ...model.grounds import Ground, Relief
-from ...model.mesh import Mesh
-from ...model.surface_shapes import Plane
-from ...model.surfaces import Surface
-from ...model.waves import Waves, wave_numbers
+from ...model.surfaces.mesh import Mesh
+from ...model.surfaces.shapes import Plane
+from ...model.surfaces.surface import Surface
+from ...model.surroundings.grounds import Ground, Relief
+from ...model.surroundings.waves import Waves, wave_numbers
 from .parts import Net
 
 #: Lines of a net in each direction, share by which it is larger than the bodies, least width as a share.

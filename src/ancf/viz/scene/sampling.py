@@ -8,9 +8,9 @@ import numpy as np
 
 from ...arrays import FloatArray
 from ...errors import ModelError
-from ...model.beam import Beam
-from ...model.section import Section
-from ...model.shapes import Circle, Rectangle
+from ...model.bodies.beam import Beam
+from ...model.sections.section import Section
+from ...model.sections.shapes import Circle, Rectangle
 from ...results.tension import along
 from ...system.fields import Fields
 from ...system.probe import R_Y, R_Z

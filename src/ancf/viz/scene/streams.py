@@ -8,7 +8,7 @@ import numpy as np
 
 from ...arrays import FloatArray
 from ...errors import ModelError
-from ...model.fluids import Fluid
+from ...model.surroundings.fluids import Fluid
 
 #: Arrows over the height of what is drawn, and their place beside it, as a share of its size.
 HEIGHTS, BESIDE = 7, 0.15

@@ -14,7 +14,7 @@ import numpy as np
 
 from ...arrays import FloatArray
 from ...errors import ModelError
-from ...model.beam import Beam
+from ...model.bodies.beam import Beam
 from ..scene import Scene
 from . import wire_ends
 from .curve import POINTS, Curve, decimated, within

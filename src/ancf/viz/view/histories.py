@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ...arrays import FloatArray
-from ...model.beam import Beam
+from ...model.bodies.beam import Beam
 from ...results import moments
 from ...system.joint_fields import JointFields
 from ...system.spring_fields import SpringFields

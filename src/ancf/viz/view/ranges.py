@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ...arrays import FloatArray
-from ...model.beam import Beam
+from ...model.bodies.beam import Beam
 from ..scene import Scene, Thread
 from ..scene.sampling import tensions
 from .curve import within

@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 
 from ...arrays import BoolArray, FloatArray
-from ...model.beam import Beam
-from ...model.contact import Contact
+from ...model.bodies.beam import Beam
+from ...model.surfaces.contact import Contact
 
 #: Recorded points inside of a wire from which on they are taken for its supports, and the share of times
 #: that has to remain between the outer ones.

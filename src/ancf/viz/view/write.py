@@ -9,7 +9,7 @@ from typing import Any
 from ...errors import ModelError
 from ...files import write_text
 from ...model import checks
-from ...model.beam import Beam
+from ...model.bodies.beam import Beam
 from ...results.modes import Modes
 from ...results.result import Result
 from ..scene import Scene, make_scene

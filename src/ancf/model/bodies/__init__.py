@@ -1,0 +1,1 @@
+"""Beams with their initial shapes, point masses and rigid bodies."""

@@ -1,0 +1,1 @@
+"""Functions of time: constants, formulas, tables, measured series, inputs."""

@@ -1,0 +1,1 @@
+"""Forces, moments, pressures, and laws of the state."""

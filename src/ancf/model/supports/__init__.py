@@ -1,0 +1,1 @@
+"""What holds and moves nodes, and winches."""

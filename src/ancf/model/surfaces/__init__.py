@@ -1,0 +1,1 @@
+"""Surfaces, and contacts with them, with strips and between cables."""

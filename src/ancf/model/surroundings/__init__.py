@@ -1,0 +1,1 @@
+"""What bodies move in and lie on: fluids, waves, gusts, grounds."""
