@@ -20,8 +20,7 @@ from .loads.load import DistributedLoad, Force, Moment
 from .loads.state_function import StateFunction
 from .supports.support import Clamp, Hold, Pin
 from .supports.winch import Winch
-from .surfaces import body_contact, cable_contact
-from .surfaces import surface as surfaces
+from .surfaces import body_contact, cable_contact, surface
 from .surfaces.contact import Contact
 from .surroundings.fluids import Fluid
 from .surroundings.grounds import Ground
@@ -211,14 +210,14 @@ CONNECTIONS: list[Kind] = [
         asked=CONTACT,
     ),
     Kind(
-        surfaces.SurfaceContact,
+        surface.SurfaceContact,
         "surface_contact",
         "contact with a surface",
         "add_surface_contact",
         _entry("SurfaceContactEntry"),
-        surfaces.data,
+        surface.data,
         ends=("body", "surface"),
-        between=surfaces.between,
+        between=surface.between,
         asked=SURFACE_CONTACT,
     ),
     Kind(
@@ -227,7 +226,7 @@ CONNECTIONS: list[Kind] = [
         "contact of cables",
         "add_cable_contact",
         _entry("CableContactEntry"),
-        surfaces.data,
+        surface.data,
         ends=("body", "other"),
         between=cable_contact.between,
         asked=SURFACE_CONTACT,
@@ -269,14 +268,14 @@ GROUND = Kind(
     batch="ground",
 )
 SURFACE = Kind(
-    surfaces.Surface,
+    surface.Surface,
     "surface",
     "surface",
     "add_surface",
     _entry("AnySurface", "surfaces"),
-    surfaces.shape,
+    surface.shape,
     ends=(),
-    between=surfaces.lie,
+    between=surface.lie,
 )
 #: What is around all bodies, one kind for each key of a model file and attribute of a Model.
 SURROUNDINGS: dict[str, Kind] = {"fluids": FLUID, "grounds": GROUND, "surfaces": SURFACE}
