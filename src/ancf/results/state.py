@@ -18,7 +18,7 @@ from ..system.contact_fields import ContactFields
 from ..system.energy import energies
 from ..system.spring_fields import SpringFields, springs_of
 from ..system.system import System
-from . import accuracy, laid, motions, sharp_bends, stretched, tension, turned_bends, wavering
+from . import accuracy, fallen, laid, motions, sharp_bends, stretched, tension, turned_bends, wavering
 from .below import of_bodies
 from .momenta import Momenta
 from .motions import Motions
@@ -151,8 +151,9 @@ class State(SpringFields, ContactFields, Momenta, Motions, StatePlotted, Readabl
     def notes(self) -> list[str]:
         """What to know of an equilibrium that nobody asked for: cables that are pressed harder than they can
         stand, bodies that are stretched by more than a tenth, cables that bend too sharply for their
-        elements, whose forces waver within these, or are so stiff that they bend too little, bodies below a
-        ground or turned round in their clamps, friction that does not act from the initial shape.
+        elements, whose forces waver within these, or are so stiff that they bend too little, bodies that
+        have fallen over, are below a ground or turned round in their clamps, friction that does not act
+        from the initial shape.
 
         It takes about as long as an iteration of the equilibrium, when it is asked for.
         """
@@ -167,6 +168,7 @@ class State(SpringFields, ContactFields, Momenta, Motions, StatePlotted, Readabl
             *turned,
             *wavers,
             *laid.notes(self),
+            *fallen.notes(self),
             *of_bodies(self),
             *accuracy.of_state(self),
         ]

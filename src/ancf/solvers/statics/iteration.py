@@ -44,6 +44,8 @@ NEUTRAL_MU_JOINTS = 1e-10  # NEUTRAL_MU with the stiffness that the rows of join
 PROBE, NOTHING = 1e-7, 1e-300  # of differences, positions in sizes of the model; no correction at all
 LEFT_OVER, DIRECTIONS = 1e-3, 40  # of the residual by GMRES, and how many directions it looks in
 OUTWEIGHED = 2.0  # times mu: what holds a vibration of this square is more than mu
+NEARLY, FAR_LONGER = 1e-2, 10.0  # corrections next to an equilibrium, and what no longer is one
+SWING = 1e-6  # of the square of a frequency: mu that is small beside what loads hold
 UNCARRIED = 1e-3  # of what joints have to carry, with the right multipliers
 ENDLESS = 1e4  # times that are multipliers of a joint without a direction
 COUNTED_MU = 1e-9  # with which pivots are counted where a body has no stiffness of its own
@@ -138,6 +140,22 @@ class Iteration:
         moves = parts[1] > 0.0  # multipliers and s have no mass
         return float(np.max(parts[0][moves] / parts[1][moves], initial=1.0))
 
+    @cached_property
+    def least(self) -> float:
+        """Least mu, 1/s^2: of what joints join a part of what loads let it swing with in the model's size.
+
+        It may turn where nothing holds it, as about the vertical: mu that hardly outweighs what round-off
+        makes of that would let it turn far, and leave the equilibrium.
+        """
+        least = LEAST_MU * self.ratio
+        if not self.expected:
+            return least
+        model, largest = self.system.model, float(np.max(np.abs(self.force), initial=0.0))
+        mass = sum(
+            b.section.rhoA * b.length if isinstance(b, Beam) else b.mass for b in model.bodies.values()
+        )
+        return max(least, SWING * largest / (mass * model.size)) if mass > 0.0 else least
+
     def _assemble(self, mass: float, stiffness: float, spin: bool) -> None:
         core = self.core
         assemble_at_rest(self.mixed.batches, core.ws, self.q, core.A, mass, 0.0, stiffness)
@@ -215,13 +233,23 @@ class Iteration:
             negative = self.factorise(self.mu)
         plain = self.follows and self.plain and self.mu == 0.0
         if self.spinning or negative == 0 or (negative > 0 and plain):
-            return self.solve(r)
-        self.mu = max(self.mu, LEAST_MU * self.ratio)
+            dq = self.solve(r)
+            if not (self.expected and self._runs_away(dq)):
+                return dq
+        self.mu = max(self.mu, self.least)
         for _ in range(MOST_MU):
             if self.factorise(self.mu) == 0:
                 return self.solve(r)
             self.mu *= MORE_MU
         raise SolveError("equilibrium", "no regularisation makes the stiffness positive definite")
+
+    def _runs_away(self, dq: FloatArray) -> bool:
+        """Whether a correction near an equilibrium is a long one.
+
+        What nothing holds, as a body that may turn about the vertical, has a stiffness of either sign that is
+        due to what is out of balance: mu that just outweighs it leaves nearly none, and the body turns far.
+        """
+        return self.last < NEARLY and self.length(dq) > FAR_LONGER * self.last
 
     def lacks_slopes(self) -> bool:
         """Whether the matrix lacks derivatives near an equilibrium.
@@ -306,10 +334,10 @@ class Iteration:
 
     def harmless(self) -> bool:
         """Whether mu > 0 only makes up for round-off."""
-        limit = NEUTRAL_MU_JOINTS if self.expected else NEUTRAL_MU
+        limit = (NEUTRAL_MU_JOINTS if self.expected else NEUTRAL_MU) * self.ratio
         if len(self.core.joints.tail):
-            limit = MORE_MU * COUNTED_MU
-        if self.mu > limit * self.ratio:
+            limit = MORE_MU * COUNTED_MU * self.ratio
+        if self.mu > max(limit, MORE_MU * self.least):
             return False
         if self.expected:
             return True
@@ -320,6 +348,23 @@ class Iteration:
             return True
         # pivots are those of the matrix without strips, which may be all that holds a body
         return len(self.touching.turns) > 0 and self.softest()[0] > OUTWEIGHED * self.mu
+
+    def is_unstable(self) -> bool:
+        """Whether a state that joints balance is one that gives way; the last factors then show how.
+
+        What turns with the forces of joints has a stiffness with these alone: it is known only now.
+        """
+        core, mu = self.core, MORE_MU * self.least
+        loaded = self.least > LEAST_MU * self.ratio
+        if not loaded or self.held or self.follows or core.joints.tail or np.any(self.strips(self.q)):
+            return False
+        if self.factorise(mu) == 0:
+            return False
+        for _ in range(MOST_MU):
+            mu *= MORE_MU
+            if self.factorise(mu) == 0:
+                return True
+        return False
 
     def softest(self) -> tuple[float, FloatArray]:
         """Square of the lowest frequency of the last factors with the contacts, 1/s^2; its shape (n,)."""

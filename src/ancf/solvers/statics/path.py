@@ -91,7 +91,7 @@ def settle(it: Iteration, share: float) -> str | None:
     """Newton iterations for one share of the loads; None, or what went wrong."""
     r = it.out_of_balance(it.q, share)
     it.mixed.correct(it.zero)
-    disturbed, norm = False, np.inf
+    disturbed, norm, it.last = False, np.inf, np.inf
     for number in range(MAX_ITERATIONS):
         if not np.all(np.isfinite(r)):
             return "the forces are not finite"
@@ -115,24 +115,32 @@ def settle(it: Iteration, share: float) -> str | None:
         if settled and (it.mu == 0.0 or it.harmless()):
             it.q = it.moved(dq, 1.0)
             it.renew_multipliers(share)
-            return _degenerate(it, share)
-        if regular and it.mu > 0.0 and norm < BALANCED and not disturbed and not it.harmless():
-            disturbed = True  # balanced, but not stable
-            it.q = disturb(it)
-            it.mixed.correct(it.zero)
-            r = it.out_of_balance(it.q, share)
+            if disturbed or not it.is_unstable():
+                return _degenerate(it, share)
+        elif disturbed or not (regular and it.mu > 0.0 and norm < BALANCED and not it.harmless()):
+            r = _advance(it, dq, r, share, number)
             continue
-        longest = min(1.0, LONGEST / max(norm, NO_MOTION))
-        if longest < 1.0:  # what nothing holds goes as far as it is let
-            longest = until_touching(it, dq, longest)
-        if number < PLAIN:
-            s, r = longest, it.out_of_balance(it.moved(dq, longest), share)
-        else:
-            s, r = line_search(it, dq, r, share, longest)
-        before, it.q = it.q, it.moved(dq, s)
-        it.mixed.correct(it.q - before)
-        it.mu = relax(it.mu, s, norm, it.ratio) if it.mu > 0.0 else 0.0
+        disturbed = True  # balanced, but not stable
+        it.q = disturb(it)
+        it.mixed.correct(it.zero)
+        r = it.out_of_balance(it.q, share)
     return f"Newton's method did not converge in {MAX_ITERATIONS} iterations, last correction {norm:.2e}"
+
+
+def _advance(it: Iteration, dq: FloatArray, r: FloatArray, share: float, number: int) -> FloatArray:
+    """Take a correction, the ``number``-th, or a part of it; what is out of balance then."""
+    norm = it.last
+    longest = min(1.0, LONGEST / max(norm, NO_MOTION))
+    if longest < 1.0:  # what nothing holds goes as far as it is let
+        longest = until_touching(it, dq, longest)
+    if number < PLAIN:
+        s, r = longest, it.out_of_balance(it.moved(dq, longest), share)
+    else:
+        s, r = line_search(it, dq, r, share, longest)
+    before, it.q = it.q, it.moved(dq, s)
+    it.mixed.correct(it.q - before)
+    it.mu = relax(it.mu, s, norm, it.ratio) if it.mu > 0.0 else 0.0
+    return r
 
 
 def _degenerate(it: Iteration, share: float) -> str | None:
