@@ -22,6 +22,7 @@ from ancf.catenary import (
     statistics,
     verify,
 )
+from ancf.catenary.lines.fittings import DropperErrors
 from ancf.catenary.forms.form import check
 from overhead_lines import COARSE, LENGTHS, STAGGER, STEP, collector, droppers, short_line
 
@@ -386,10 +387,12 @@ class TestTable:
         with pytest.raises(ModelError, match=r"supports.csv, row 2, dropper 4 of its span: .* hangs"):
             form(read_line(path), COARSE)
 
+    @pytest.mark.parametrize("deviation", [None, 0.0, 1e-3])
     @pytest.mark.parametrize("factor", [1e-3, 1e3])
-    def test_lengths_in_other_units(self, factor):
+    def test_lengths_in_other_units(self, factor, deviation):
         """Droppers a thousand times too short or too long are refused, in the check and in form finding."""
-        line = short_line()
+        errors = None if deviation is None else DropperErrors(deviation=deviation)
+        line = short_line(dropper_errors=errors)
         wrong = tuple(0.9 * factor if j == 7 else 0.9 for j in range(line.dropper_x.size))
         if factor > 1.0:
             wrong = tuple(min(length, 99.0) for length in wrong)

@@ -88,10 +88,10 @@ def _of_line(line: Line, mesh: Mesh | None, section: int = 0) -> Form:
     designed = design_twin(plain, mesh) if line.twin else design(plain, mesh)
     found = replace(designed, line=line, made_for=None)
     lengths = line.dropper_lengths
+    if lengths is not None:
+        check_lengths(line, found.dropper_natural)
     if line.dropper_errors is not None:
         lengths = with_errors(found, line.dropper_errors, section)
-    elif lengths is not None:
-        check_lengths(line, found.dropper_natural)
     if lengths is not None:
         found = as_built(found, lengths)
     if line.conditions != Conditions():
