@@ -94,7 +94,8 @@ class TestSides:
         with warnings.catch_warnings():
             warnings.simplefilter("error")
             form(replace(line, conditions=Conditions(wind=5.0)), COARSE)
-        with pytest.warns(UserWarning, match=r"support \d: the arm stands to the right .* can only pull"):
+        said = r"^line\.conditions: with wind -38 m/s at support \d: the arm stands .* can only pull"
+        with pytest.warns(UserWarning, match=said):
             form(replace(line, conditions=Conditions(wind=-38.0)), COARSE)
 
 

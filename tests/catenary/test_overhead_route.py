@@ -9,6 +9,7 @@ from typer.testing import CliRunner
 import ancf
 from ancf import ModelError
 from ancf.catenary import Conditions, Route, Span, assemble, elasticity, form, read_line, run, statistics
+from ancf.catenary.rest import check_track
 from ancf.cli.app import app
 from overhead_lines import COARSE, STEP, TOML, collector, droppers, short_line
 from places import EXAMPLES
@@ -51,6 +52,26 @@ class TestRoute:
         assert made.dropper_span[[0, 34, 35]].tolist() == [0, 6, 7]
         low, high = made.reach
         assert (low[8], high[7], low[9], high[9]) == (-np.inf, np.inf, BEGIN + 20.0, BEGIN + 60.0)
+
+    @pytest.mark.parametrize("ask", [check_track, form])
+    @pytest.mark.parametrize("wrong", [0, 1])
+    def test_what_is_wrong_is_said_of_its_section(self, wrong, ask):
+        for height in (0.05, 0.2):
+            lines = [section(k == 0, **({"system_height": height} if k == wrong else {})) for k in (0, 1)]
+            with pytest.raises(ModelError, match=r"the messenger hangs .* below the contact wire") as caught:
+                ask(Route(lines=tuple(lines), starts=(0.0, BEGIN)))
+            assert caught.value.where.startswith(f"sections[{wrong}].spans[")
+
+    @pytest.mark.parametrize("curved", [(), (0,), (1,), (0, 1)])
+    def test_what_is_odd_is_said_of_its_section(self, curved):
+        """A versine of 0.75 m leaves strips of 1.45 m."""
+        bends = [Span(length=LENGTH, droppers=droppers(LENGTH), radius=LENGTH**2 / 8 / 0.75)] * SPANS
+        changes = {"spans": bends, "stagger": 0.0}
+        lines = [section(k == 0, **(changes if k in curved else {})) for k in (0, 1)]
+        told = check_track(Route(lines=tuple(lines), starts=(0.0, BEGIN)))
+        assert [text.partition(":")[0] for text in told] == [
+            f"sections[{k}].spans[{j}].radius" for k in curved for j in range(SPANS)
+        ]
 
     def test_height_is_that_of_the_lowest_wire(self):
         made = route()

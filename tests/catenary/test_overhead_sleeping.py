@@ -5,11 +5,13 @@ import pytest
 
 import ancf
 from ancf import catenary
-from ancf.catenary import sleeping
+from ancf.catenary import Rayleigh, sleeping
 from ancf.catenary.lines.stitch import StitchWire
 from ancf.catenary.rest import assemble, form
 from ancf.solvers.sleeping import parts as far_parts
 from ancf.solvers.sleeping.parts import Matrices, cables_of, in_order, parts_of, reduced, shapes_of
+from ancf.system.core import residual
+from ancf.system.far import ASLEEP
 from ancf.system.system import System
 from overhead_lines import COARSE, STEP, collector, droppers, short_line
 
@@ -17,6 +19,7 @@ LINES = {
     "unequal spans": {},
     "equal spans": {"spans": [catenary.Span(length=36.0, droppers=droppers(36.0))] * 6, "stagger": 0.2},
     "a gradient": {"height": (0.0, 0.0, 0.03, 0.06, 0.06, 0.06)},
+    "much damping": {"damping": Rayleigh(alpha=0.8, beta=1e-4)},
 }
 
 
@@ -30,7 +33,9 @@ def run(line, reduce, speed=60.0, **given):
 def test_the_whole_line_moves_alike(name):
     line = short_line(**LINES[name])
     whole, less = run(line, False), run(line, True)
-    assert less.settings["spans that are reduced while no pantograph is near"] == len(line.spans)
+    assert less.settings[sleeping.REDUCED] == len(line.spans)
+    left = next(value for key, value in less.settings.items() if key.startswith("displacement that these"))
+    assert 0.0 < left < 2e-4  # they do sleep
     force, other = whole.recordings[0].force, less.recordings[0].force
     late = whole.t > 0.3
     assert np.std(other[late]) == pytest.approx(np.std(force[late]), rel=5e-3)
@@ -188,10 +193,28 @@ def test_modes_are_shared_by_spans_that_are_alike_or_mirrored():
         assert np.abs(left).max() < 1e-3 * np.abs(stiffness.inner @ shapes.modes).max()
 
 
+def assert_nothing_moves_what_sleeps(run, spans):
+    """However what is inside moves, and however fast: cables and droppers do without it."""
+    core, size, random = run.system.core, run.system.size, np.random.default_rng(2)
+    q, v, a = run.memory.q.copy(), np.zeros(size), np.zeros(size)
+    asleep = np.flatnonzero(spans.far.part[:, ASLEEP])
+    for k in asleep:
+        inner = spans.parts[k].inner
+        for vector, most in ((q, 1e-3), (v, 1.0), (a, 1.0)):
+            vector[inner] += most * random.uniform(-1.0, 1.0, len(inner))
+    force = np.zeros(size)
+    residual(core.batches, core.ws, q, v, a, np.zeros(size), force)
+    assert not force[np.concatenate([spans.parts[k].inner for k in asleep])].any()
+    for k in np.setdiff1d(np.arange(len(spans.parts)), asleep):
+        assert force[spans.parts[k].inner].any()
+
+
 def test_asleep_and_awake_again():
     """A part that sleeps and wakes at once is where it was, but for what its modes leave out."""
     found = form(short_line(), COARSE)
     overhead = assemble(found)
+    ends = overhead.contact_at(115.0), overhead.messenger_at(115.0)
+    overhead.model.add_spring(*ends, stiffness=300.0, length=1.5, name="strut")  # which never goes slack
     rest = sleeping.Sleep(ancf.equilibrium(overhead.model))
     catenary.add_pantograph(overhead, collector(), speed=50.0, start=10.0, label="pantograph")
     start = ancf.equilibrium(overhead.model)
@@ -200,8 +223,13 @@ def test_asleep_and_awake_again():
     live.advance(400)
     run = live._run
     q, v = run.memory.q.copy(), run.memory.v.copy()
+    springs = run.system.springs.data.copy()
     spans = run.reduce(rest.plan(run.system, overhead))
-    assert spans.far.part[:, -2].sum() >= 3
+    assert spans.far.part[:, ASLEEP].sum() >= 3
+    ends, places = found.line.supports, np.sort(spans.far.place, axis=0)
+    assert np.all((places - np.stack([ends[:-1], ends[1:]], axis=1)) * (1.0, -1.0) > 0.0)
+    assert np.abs(places - np.stack([ends[:-1], ends[1:]], axis=1)).max() < 4.0  # the nodes beside them
+    assert_nothing_moves_what_sleeps(run, spans)
     with spans.woken():
         assert np.abs(run.memory.q - q)[: run.system.n].max() < 2e-3
     before = [x.copy() for x in spans._changed()]
@@ -209,6 +237,7 @@ def test_asleep_and_awake_again():
         assert not np.array_equal(before[0], run.memory.q)
     assert all(np.array_equal(a, b) for a, b in zip(before, spans._changed(), strict=True))
     spans.wake_all()
+    assert np.array_equal(run.system.springs.data, springs)
     positions = np.flatnonzero(np.arange(run.system.n) % 6 < 3)
     assert np.abs(run.memory.q - q)[positions].max() <= spans.left_out + 1e-12
     assert np.abs(run.memory.v - v)[positions].max() < 0.05 * np.abs(v[positions]).max()

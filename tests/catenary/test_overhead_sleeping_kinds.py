@@ -36,9 +36,9 @@ KINDS = {
 }
 
 
-def run(line, reduce):
+def run(line, reduce, **more):
     given = {"pantograph": collector(), "mesh": COARSE, "step": STEP, "start": 12.0}
-    given |= {"window": (100.0, 150.0), "until": 154.0}
+    given |= {"window": (100.0, 150.0), "until": 154.0} | more
     return catenary.run(line, speed=60.0, reduce=reduce, **given)
 
 
@@ -64,6 +64,45 @@ def test_in_wind_none_is_reduced(wind):
     whole, less = run(line, False), run(line, True)
     assert less.settings["spans that are reduced while no pantograph is near"] == 0
     np.testing.assert_allclose(less.recordings[0].force, whole.recordings[0].force, rtol=0, atol=0.02)
+
+
+def strut(overhead, point):
+    ends = point, overhead.messenger_at(80.0)
+    overhead.model.add_spring(*ends, stiffness=200.0, length=1.5, name="strut")
+
+
+def brake(overhead, point):
+    ends = point, overhead.messenger_at(80.0)
+    overhead.model.add_spring(*ends, stiffness=200.0, length=1.1, friction=2.0, name="brake")
+
+
+def node_near(overhead, track):
+    """Point at the node of the contact wire that is nearest to a place of the track."""
+    point = overhead.contact_at(track)
+    return point.body.at(float(min(point.body.node_x, key=lambda x: abs(x - point.x))))
+
+
+#: What is added at a place of the third span, and whether this then moves as it is.
+ADDED = {
+    "a constant force": (False, lambda o, at: o.model.add_force(at, (0, 0, 5.0))),
+    "a strut": (False, strut),
+    "a force of time": (True, lambda o, at: o.model.add_force(at, (0, 0, "5*sin(9*t)"))),
+    "an input": (True, lambda o, at: o.model.add_force(at, (0, 0, o.model.add_input("push", 4.0)))),
+    "a moved place": (True, lambda o, at: o.model.hold(at, position="y", displacement=(0, "1e-3*t", 0))),
+    "friction": (True, brake),
+}
+
+
+@pytest.mark.parametrize("added", ADDED)
+def test_what_a_span_has_of_its_own(added):
+    """Modes know of constant loads and of springs; what changes with time keeps a span as it is."""
+    awake, add = ADDED[added]
+    given = {"modify": lambda overhead: add(overhead, node_near(overhead, 80.0))}
+    whole, less = (run(short_line(), reduce, **given) for reduce in (False, True))
+    assert less.settings[sleeping.REDUCED] == 5 - awake
+    force, other = whole.recordings[0].force, less.recordings[0].force
+    assert np.sqrt(np.mean((other - force) ** 2)) < 0.03 * np.std(force)
+    assert np.abs(less.uplift - whole.uplift).max() < 0.02 * np.abs(whole.uplift).max()
 
 
 @pytest.mark.parametrize("kind", ["clamps", "twin wires"])

@@ -166,11 +166,18 @@ def test_a_controller_asks_for_pantographs(delay):
 def test_a_controller_feels_the_same_line():
     line = short_line()
 
+    asked = []
+
     def controller(run):
+        asked[-1].append(run.t)
         run.inputs["pantograph_force"] = 0.3 * (120.0 - run.contact_force("pantograph contact"))
 
-    led = {"controller": controller, "control_step": 4e-3}
-    runs = [catenary.run(line, **SETTINGS, **led, reduce=reduce) for reduce in (False, True)]
+    led, runs = {"controller": controller, "control_step": 4e-3}, []
+    for reduce in (False, True):
+        asked.append([])
+        runs.append(catenary.run(line, **SETTINGS, **led, reduce=reduce))
+    assert np.diff(asked[0]) == pytest.approx(4e-3)
+    assert asked[1] == pytest.approx(asked[0], abs=1e-12)
     forces = [run.recordings[0].force for run in runs]
     assert np.sqrt(np.mean(np.square(np.subtract(*forces)))) < 0.05 * np.std(forces[0])
 
@@ -201,10 +208,12 @@ def test_saved_and_gone_on_with(tmp_path):
     assert again.position("pantograph mass 2") == pytest.approx(run.position("pantograph mass 2"), abs=2e-4)
 
 
+@pytest.mark.parametrize("given", [{"start": 150.0}, TWO | {"start": 120.0}], ids=["one", "two"])
 @pytest.mark.parametrize("speed", [60.0, [(0.0, 40.0), (1.0, 60.0)]])
-def test_the_end_of_the_line(speed):
+def test_the_end_of_the_line(speed, given):
+    """Which the first pantograph reaches first."""
     line = short_line()
-    run = catenary.stepper(line, **SETTINGS | {"speed": speed, "start": 150.0})
+    run = catenary.stepper(line, **SETTINGS | {"speed": speed} | given)
     with pytest.raises(ancf.ModelError, match=r"advance\.steps.*end of the line, 166 m, after \d+ steps"):
         run.advance(1000)
     run.advance(run._last)

@@ -11,6 +11,7 @@ from ancf import ModelError
 from ancf.catenary import (
     Butterworth,
     Conditions,
+    Route,
     Span,
     assemble,
     clamp_strains,
@@ -20,6 +21,7 @@ from ancf.catenary import (
     run,
 )
 from ancf.catenary.answers.clamp_strain import edge, hanging, strain_below_strip
+from ancf.catenary.lines.fittings import DropperErrors
 from overhead_lines import COARSE, STEP, collector, short_line
 
 
@@ -114,6 +116,19 @@ class TestIrregular:
         assert dropper_errors(plain, deviation, 7) == dropper_errors(plain, deviation, 7)
         built = form(dropper_errors(plain, deviation, 7), COARSE)
         assert 0.0 < np.std(built.contact_height - plain.contact_height) < 2 * deviation
+
+    @pytest.mark.parametrize("seed", [1, 7])
+    def test_sections_of_a_route_have_errors_of_their_own(self, seed):
+        """Those of the first are those of the line alone, and none are those of another one."""
+        level = {"stagger": 0.0, "height": (0.1, *[0.0] * 4, 0.1)}
+        rough = short_line(dropper_errors=DropperErrors(deviation=0.003, seed=seed), **level)
+        plain, alone = form(short_line(**level), COARSE), form(rough, COARSE)
+        made = form(Route(lines=(rough, rough, rough), starts=(0.0, 136.0, 272.0)), COARSE)
+        errors = [one.dropper_natural - plain.dropper_natural for one in made.forms]
+        assert np.array_equal(made.forms[0].dropper_natural, alone.dropper_natural)
+        share = np.corrcoef(errors)[~np.eye(3, dtype=bool)]
+        assert np.abs(share).max() < 0.7
+        assert np.std(errors, axis=1) == pytest.approx([0.003] * 3, rel=0.5)
 
     @pytest.mark.parametrize("slope", [0.0, 2.0])
     def test_height_errors_have_their_spectrum(self, slope):

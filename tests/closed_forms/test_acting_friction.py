@@ -86,6 +86,20 @@ def test_a_run_that_is_asked_between_steps_tells_what_sensors_do(build, method):
     assert np.allclose(told(run.state()), wanted[-1], rtol=1e-12, atol=1e-14)
 
 
+@pytest.mark.parametrize("steps", [7, 40])
+@pytest.mark.parametrize("build", [sliding, crossed])
+def test_a_run_that_goes_on_begins_with_the_friction_that_acted(build, steps):
+    """Not with that of the limits that are renewed for its first step."""
+    model, contact = build(1e5, 0.25)
+    given = {"step": 5e-4, "sensors": [contact]}
+    start = ancf.simulate(model, t_end=steps * 5e-4, **given).state()
+    sensors = ancf.simulate(model, t_end=(steps + 1) * 5e-4, start=start, **given).sensors
+    friction = sensors.friction_force(contact)
+    assert friction[0] == start.friction_force(contact)
+    assert sensors.slipping(contact)[0] == start.slipping(contact)
+    assert abs(friction[1] - friction[0]) > 1e-3 * friction[0]
+
+
 def test_friction_along_a_rope_adds_up_to_that_of_the_contact():
     model, contact = laid(1e5, 0.25)
     run = ancf.simulate(model, t_end=0.08, step=5e-4, sensors=[contact])
@@ -96,6 +110,7 @@ def test_friction_along_a_rope_adds_up_to_that_of_the_contact():
     size = np.linalg.norm(line.friction, axis=1)
     assert force > 0.1
     assert weight @ size == pytest.approx(force, rel=1e-9)
+    assert weight @ line.friction[:, 0] == pytest.approx(-force, rel=1e-3)  # against the pull along x
     assert weight @ (size * line.slips) / force == pytest.approx(float(state.slipping(contact)), abs=1e-9)
 
 

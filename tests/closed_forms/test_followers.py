@@ -150,6 +150,25 @@ class TestFollowerForce:
         assert result.velocity(hub.centre) == pytest.approx(wanted, abs=2e-6)
         assert np.abs(result.energy.drift).max() < 1e-6
 
+    @pytest.mark.parametrize(
+        ("force", "said"),
+        [
+            ((2.0, 0.0, 0.0), "force = (2, 0, 0) N"),
+            (("2*t", 0, 0), "force = (2*t, 0, 0) [N]"),
+            (lambda t: (t, 0.0, 0.0), "[N]"),
+        ],
+    )
+    def test_told_with_its_unit(self, force, said):
+        model = ancf.Model()
+        section = ancf.Section(EA=1e4, EI=1.0, rhoA=1.0)
+        wire = model.add_beam("wire", start=(0, 0, 0), end=(1, 0, 0), elements=2, section=section)
+        model.add_follower_force(wire.end, force)
+        [row] = [line for line in str(model).splitlines() if line.startswith("follower force at wire.end")]
+        assert row.endswith(said)
+        with pytest.raises(ModelError, match=r"\.force: must be given: .*\[N\]"):
+            model.add_follower_force(wire.end, None)
+        assert len(model.loads) == 1
+
     def test_files_pictures_and_errors(self):
         study = {
             "bodies": [

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import ancf
+from ancf.system.system import System
 
 R, D = 0.2, 0.02
 #: Weights of the points of an element.
@@ -116,6 +117,34 @@ class TestCapstan:
         assert state.tension(f"rope.at({at})") == pytest.approx(1000.0 * np.exp(-0.3 * np.pi / 2), rel=2e-3)
         size = np.linalg.norm(line.friction, axis=1)
         assert size[inside] == pytest.approx(0.3 * line.normal[inside], rel=5e-3)
+
+
+class TestLine:
+    @pytest.mark.parametrize("power", [1.0, 1.7])
+    @pytest.mark.parametrize("radius", [None, 0.03])
+    @pytest.mark.parametrize("tilt", [0.0, 3e-3, -8e-3])
+    def test_gap_and_force_of_a_tilted_rope(self, tilt, radius, power):
+        """The height of its axis above the plane less its radius, and the stiffness times what is below."""
+        low = 0.01 if radius is None else radius
+        model = ancf.Model()
+        section = ancf.Section(EA=1e4, EI=0.01, rhoA=0.3, diameter=0.02)
+        above = low - 1e-3
+        ends = {"start": (0, 0, above - 0.5 * tilt), "end": (1.3, 0, above + 0.5 * tilt)}
+        nodes = np.hypot(1.3, tilt) * np.linspace(0.0, 1.0, 8) ** power
+        rope = model.add_beam("rope", **ends, nodes=nodes, section=section)
+        floor = model.add_surface("floor", ancf.Plane())
+        contact = model.add_contact(rope, floor, stiffness=2e5, radius=radius)
+        system = System(model)
+        state = ancf.State(system, 0.0, *system.initial_state())
+        line = state.contact_line(contact)
+        gap = above + tilt * (line.x / rope.length - 0.5) - low
+        assert line.x.reshape(7, -1).mean(axis=1) == pytest.approx(0.5 * (nodes[1:] + nodes[:-1]), rel=1e-12)
+        assert line.gap == pytest.approx(gap, abs=1e-12)
+        assert line.normal == pytest.approx(2e5 * np.maximum(-gap, 0.0), rel=1e-9, abs=1e-6)
+        assert line.gap.min() == pytest.approx(float(state.contact_gap(contact)), abs=1e-12)
+        assert not line.friction.any()
+        assert not line.limit.any()
+        assert not line.slips.any()
 
 
 class TestWithoutFriction:

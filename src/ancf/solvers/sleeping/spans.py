@@ -327,8 +327,7 @@ def _is_still(system: System, part: Part) -> bool:
     """Whether the loads on it are the same at all times."""
     mine = set(part.inner.tolist())
     for (slots, _), function in zip(system.patterns, system.inputs.loads, strict=False):
-        timely = not function.constant or function.inputs
-        if timely and mine & set((slots[:, None] + np.arange(3)).ravel().tolist()):
+        if not function.constant and mine & set((slots[:, None] + np.arange(3)).ravel().tolist()):
             return False
     return True
 
