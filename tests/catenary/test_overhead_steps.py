@@ -5,6 +5,8 @@ import pytest
 
 import ancf
 from ancf import catenary
+from ancf.solvers.far import LOOKED
+from ancf.system.far import ASLEEP, RATE
 from overhead_lines import COARSE, STEP, collector, droppers, short_line
 
 SETTINGS = {"speed": 60.0, "pantograph": collector(), "mesh": COARSE, "step": STEP}
@@ -180,6 +182,21 @@ def test_a_controller_feels_the_same_line():
     assert asked[1] == pytest.approx(asked[0], abs=1e-12)
     forces = [run.recordings[0].force for run in runs]
     assert np.sqrt(np.mean(np.square(np.subtract(*forces)))) < 0.05 * np.std(forces[0])
+
+
+@pytest.mark.parametrize("speed", [0.0, 1e-3, 0.5, 2.0])
+def test_a_slack_dropper_wakes_its_span(speed):
+    """A contact wire that is thrown upwards leaves its droppers, of which modes know nothing."""
+    run = catenary.stepper(short_line(), **SETTINGS, reduce=True)
+    run.advance(60)
+    spans = run._run.far
+    k = int(np.flatnonzero(spans.far.part[:, ASLEEP])[0])
+    part, kind = spans.parts[k], spans.kinds[spans.kind_of[k]]
+    thrown = speed * np.isin(part.inner, run._run.system.slots["contact"][:, 0] + 2)
+    assert thrown.any() == (speed > 0.0)
+    spans._put(k, RATE, spans._get(k, RATE) + kind.project @ thrown)
+    run.advance(2 * LOOKED)
+    assert (spans.far.part[k, ASLEEP] == 0) == (speed > 0.1)
 
 
 @pytest.mark.parametrize("force", [1e10, 1e12])
