@@ -22,8 +22,8 @@ from ancf.catenary import (
     statistics,
     verify,
 )
-from ancf.catenary.lines.fittings import DropperErrors
 from ancf.catenary.forms.form import check
+from ancf.catenary.lines.fittings import DropperErrors
 from overhead_lines import COARSE, LENGTHS, STAGGER, STEP, collector, droppers, short_line
 
 G = 9.81

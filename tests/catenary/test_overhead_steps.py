@@ -5,7 +5,7 @@ import pytest
 
 import ancf
 from ancf import catenary
-from ancf.solvers.far import LOOKED
+from ancf.solvers.sleeping.far import LOOKED
 from ancf.system.far import ASLEEP, RATE
 from overhead_lines import COARSE, STEP, collector, droppers, short_line
 
