@@ -14,6 +14,7 @@ from .joints.basic import Slide
 from .kinds import GROUPS, SURROUNDINGS
 from .loads.load import DistributedLoad
 from .points import Point
+from .surfaces import SurfaceContact, touches_with_its_own
 
 #: What refers to nothing.
 _PLAIN = (float, int, str, np.ndarray, type(None))
@@ -32,7 +33,7 @@ def exchanged(model: Any, old: Any, new: Any, factor: float = 1.0) -> Any:
             elif not isinstance(value, tuple) and not is_dataclass(value):
                 memo[id(value)] = value
     made = deepcopy(model, memo)
-    _stretch(made, old, new, factor)
+    _follow(made, old, new, factor)
     return made
 
 
@@ -48,7 +49,7 @@ def renewed(model: Any, old: Any, new: Any, factor: float = 1.0) -> Any:
         items = getattr(model, key)
         if items:
             setattr(made, key, [_renewed(item, memo) for item in items])
-    _stretch(made, old, new, factor)
+    _follow(made, old, new, factor)
     return made
 
 
@@ -110,17 +111,19 @@ def _carried(point: Point, body: Any, factor: float) -> Point:
     return replace(point, body=body, x=x, label=label)
 
 
-def _stretch(made: Any, old: Any, new: Any, factor: float) -> None:
-    """Let what is given by arc lengths of a beam of another length move along."""
-    if isinstance(old, Beam) and factor != 1.0:
+def _follow(made: Any, old: Any, new: Any, factor: float) -> None:
+    """Let what is given by arc lengths or by the diameter of a beam go with them."""
+    if isinstance(old, Beam) and (factor != 1.0 or old.section.diameter != new.section.diameter):
         for key in GROUPS:
-            setattr(made, key, [_stretched(item, new, factor) for item in getattr(made, key)])
+            setattr(made, key, [_following(item, old, new, factor) for item in getattr(made, key)])
 
 
-def _stretched(item: Any, beam: Beam, factor: float) -> Any:
-    if isinstance(item, DistributedLoad) and item.body is beam:
+def _following(item: Any, old: Beam, beam: Beam, factor: float) -> Any:
+    if isinstance(item, DistributedLoad) and item.body is beam and factor != 1.0:
         x0, x1 = item.between
         return replace(item, between=(x0 * factor, min(x1 * factor, beam.length)))
-    if isinstance(item, Slide) and item.carrier is beam:
+    if isinstance(item, Slide) and item.carrier is beam and factor != 1.0:
         return replace(item, s=item.s * factor)
+    if isinstance(item, SurfaceContact) and item.body is beam and touches_with_its_own(item, old):
+        return replace(item, radius=0.5 * (beam.section.diameter or 0.0))
     return item

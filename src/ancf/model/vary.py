@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Callable
 from dataclasses import fields, is_dataclass, replace
@@ -21,7 +22,8 @@ from .functions.function import Scaled, TimeFunction
 from .functions.inputs import make_input
 from .kinds import GROUPS, SURROUNDINGS
 from .loads.load import DistributedLoad
-from .sections.section import DAMPINGS, Section
+from .sections.moments import of_similar_rectangle
+from .sections.section import DAMPINGS, FOURTH_MOMENTS, Section
 
 if TYPE_CHECKING:
     from .model import Model
@@ -38,7 +40,9 @@ OF_SHAPE = {
 PAIRS = ("shear_factors", "drag", "added_mass", "rotary_inertia")
 OF_BEAM = ("length", "start", "end", "velocity", "angular_velocity", "about")
 #: Directions, which are no numbers, and what chooses a way.
-NO_NUMBERS = ("axis", "release", "unilateral", "normal", "strip", "direction", "tolerance")
+NO_NUMBERS = ("axis", "axes", "release", "unilateral", "normal", "strip", "direction", "tolerance")
+#: What varies numbers that have no name.
+BUILT = "a function that builds the model, or a model file with [parameters]"
 #: Other names of fields of bodies.
 CALLED = {"at": "position"}
 #: ``put(old, new, factor)``: a model with one body or item for another, see :mod:`ancf.model.exchange`.
@@ -120,6 +124,8 @@ def _resolve(model: Model, name: Any, exchange: Any) -> tuple[float, Any]:
     found = KEY.fullmatch(key)
     if not dot or found is None:
         hint = "such as beam.EI, gravity, end force.force[2]"
+        if name.count("[") == 2:  # an entry of a matrix
+            hint = f"{name.partition('[')[0]} is a factor of the whole; of an entry {BUILT}"
         raise ModelError(name or '""', "is no number of the model", hint)
     if owner in model.bodies:
         return _of_body(partial(exchange, model), model.bodies[owner], name, found["key"], found["part"])
@@ -197,8 +203,18 @@ def _of_body(put: Put, body: Body, name: str, key: str, part: str | None) -> tup
 
 
 def _no_key(item: Any, name: str, key: str) -> ModelError:
-    what = f'"{item.name}" has no number "{key}"'
-    return ModelError(name, what, checks.nearest(key, _keys(item)) or f"it has: {', '.join(_keys(item))}")
+    known = [
+        key for key in _keys(item) if isinstance(item, Beam) or _varies(getattr(item, CALLED.get(key, key)))
+    ]
+    there = f"it has: {', '.join(known)}; of others {BUILT}" if known else BUILT
+    return ModelError(name, f'"{item.name}" has no number "{key}"', checks.nearest(key, known) or there)
+
+
+def _varies(value: Any) -> bool:
+    """Whether something is a number, numbers or a function of time."""
+    if isinstance(value, tuple):
+        return len(value) > 0 and all(isinstance(x, float) for x in value)
+    return isinstance(value, float | np.ndarray | TimeFunction)
 
 
 def _moved(put: Put, body: Any, position: Any) -> Any:
@@ -234,14 +250,21 @@ def _of_section(section: Section, name: str, key: str, part: str | None) -> tupl
 
 
 def _reshaped(section: Section, plain: dict[str, Any], key: str, x: float) -> dict[str, Any]:
-    """Description of a section with another number; Saint-Venant's torsion constant follows the shape."""
+    """Description of a section with another number; what was not given with it follows.
+
+    That are Saint-Venant's torsion constant of a shape, and fourth moments of a similar rectangle.
+    """
     given = plain | {key: x}
     sizes = [name for name in ("width", "height", "diameter") if name in OF_SHAPE[plain["shape"]]]
     if key in sizes:
         made = Section.rectangle if plain["shape"] == "rectangle" else Section.circle
         own, new = (made(**{name: d[name] for name in sizes}, E=1.0, rho=1.0).J for d in (plain, given))
-        if own is not None and np.isclose(own, plain["J"], rtol=1e-12):
+        if own is not None and math.isclose(own, plain["J"], rel_tol=1e-12):
             given["J"] = new
+    if key in ("A", "I_y", "I_z"):
+        for fourth in FOURTH_MOMENTS:
+            if math.isclose(plain[fourth], of_similar_rectangle(fourth, plain), rel_tol=1e-12):
+                given[fourth] = of_similar_rectangle(fourth, given)
     return given
 
 
@@ -271,7 +294,7 @@ def _of_end(put: Put, beam: Beam, name: str, key: str, part: str | None) -> tupl
     between = ends["end"] - ends["start"]
     across = between - beam.node_tangent * (beam.node_tangent @ between)[:, None]
     if np.max(np.sum(across**2, axis=1)) > (1e-9 * beam.length * beam.stretch) ** 2:
-        raise ModelError(name, "is an end of a curve", "a function that builds the model, or a model file")
+        raise ModelError(name, "is an end of a curve", BUILT)
 
     def use(place: Any) -> Any:
         both = ends | {key: np.asarray(place)}
@@ -308,11 +331,13 @@ def _of_item(put: Put, item: Any, name: str, key: str, part: str | None) -> tupl
         return value, use
     if isinstance(value, np.ndarray):
         return _of_vector(name, value, part, use)
-    if isinstance(value, tuple) and part is not None and all(isinstance(x, float) for x in value):
+    if isinstance(value, tuple) and part is not None and _varies(value):
         return _of_vector(name, value, part, lambda x: use(tuple(x.tolist())))
     if isinstance(value, TimeFunction):
         return _of_function(value, name, part, use)
-    raise ModelError(name, f"is no number: {checks.shown(value)}", "a model file with [parameters]")
+    plain = isinstance(value, bool | str | tuple | type(None))  # others would show the insides of the package
+    what = f"is no number: {checks.shown(value)}" if plain else "is no number"
+    raise ModelError(name, what, BUILT)
 
 
 def _checked(item: Any, name: str) -> Any:

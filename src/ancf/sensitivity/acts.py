@@ -17,7 +17,7 @@ from ..model.supports.winches import by_body
 from ..model.surfaces.body_contact import BodyContact
 from ..model.surfaces.cable_contact import CableContact
 from ..model.surfaces.contact import Contact
-from ..model.surfaces.surface import SurfaceContact
+from ..model.surfaces.surface import SurfaceContact, touches_with_its_own
 from ..system.beside import (
     BODIES,
     BUMPING,
@@ -72,7 +72,7 @@ def acts_of(model: Model, name: str) -> Acts | None:
         return Acts(frozenset((ELEMENTS, BODIES)), weighs=key in MASSES)
     around = frozenset((GROUND,) if model.grounds else ()) | _wet(model)
     if key == "diameter":
-        wide = any(isinstance(one, CableContact) for one in model.connections)  # which has to find others
+        wide = any(_is_wide(one, body) for one in model.connections)
         return None if wide else Acts(around | {ELEMENTS, BODIES}, weighs=True)
     if not _is_bare(model):
         return None
@@ -85,6 +85,13 @@ def acts_of(model: Model, name: str) -> Acts | None:
     everything = around | touching | {ELEMENTS, SPRINGS, BODIES, PRESSURE, *((SLIDES,) if slides else ())}
     moves = any(getattr(one, way, None) is not None for one in model.supports for way in MOTIONS)
     return Acts(everything, weighs=True, moves=moves, shapes=True) if key == "length" else None
+
+
+def _is_wide(contact: object, beam: Beam) -> bool:
+    """Whether a contact depends on the diameter of a beam: one of cables has to find others by it."""
+    if isinstance(contact, SurfaceContact):
+        return contact.body is beam and touches_with_its_own(contact, beam)
+    return isinstance(contact, CableContact)
 
 
 def _of_connection(model: Model, owner: str, key: str) -> Acts | None:

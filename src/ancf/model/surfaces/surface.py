@@ -137,6 +137,11 @@ def make_surface_contact(
     )
 
 
+def touches_with_its_own(contact: SurfaceContact, beam: Beam) -> bool:
+    """Whether a contact has the radius of the section of this beam, as it has unless another one is given."""
+    return beam.section.diameter is not None and contact.radius == 0.5 * beam.section.diameter
+
+
 def lie(item: Surface) -> str:
     """Where a surface is."""
     return f"{numbers(item.shape.place, 4)} m on {'the ground' if item.on is None else item.on.name}"
