@@ -1,6 +1,5 @@
 """A number changed by its name gives the model that is built with it: what follows from it goes along."""
 
-import numpy as np
 import pytest
 
 import ancf
@@ -101,7 +100,7 @@ def test_a_thicker_rope_on_a_drum(radius, friction):
 
 @pytest.mark.parametrize("friction", [0.0, 0.3])
 def test_a_gradient_by_the_diameter(friction):
-    run, text = {"t_end": 0.03, "step": 1e-3}, "mean(tension(line.start))"
+    run, text = {"t_end": 0.06, "step": 1e-3}, "mean(tension(line.start))"
     slope = ancf.gradient(rope(0.02, None, friction), text, ["line.diameter"], **run)[1]["line.diameter"]
     h = 1e-5
     low, high = (ancf.gradient(rope(0.02 + x, None, friction), text, [], **run)[0] for x in (-h, h))
@@ -126,7 +125,6 @@ def test_twist_by_the_width(J):
     h = 1e-6
     low, high = (float(ancf.equilibrium(bar(0.012 + x)).twist("bar.end")) for x in (-h, h))
     assert found == pytest.approx((high - low) / (2 * h), rel=1e-4, abs=1e-5)
-    assert np.sign(found) == (0.0 if J and found == 0.0 else np.sign(high - low))
 
 
 @pytest.mark.parametrize(
