@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 import ancf
+from upright import UP, axes
 
-UP = {"z": (0.0, 0.0, 1.0), "x": (1.0, 0.0, 0.0), "skew": (0.6, 0.0, -0.8)}
 #: From a joint to the centre of the body: hanging askew, level, askew upwards, nearly and exactly upright.
 ARMS = {
     "askew": (0.1, 0.0, -0.5),
@@ -14,13 +14,6 @@ ARMS = {
     "nearly": (1e-6, 0.0, 0.5),
     "upright": (0.0, 0.0, 0.5),
 }
-
-
-def axes(up):
-    """Three unit vectors, the last one upwards."""
-    third = np.array(UP[up])
-    first = np.cross((0.0, 1.0, 0.0), third)
-    return np.array([first, np.cross(third, first), third])
 
 
 def chain(count, arm, up, mass=2.0, size=1.0):

@@ -14,7 +14,7 @@ from .joints.basic import Slide
 from .kinds import GROUPS, SURROUNDINGS
 from .loads.load import DistributedLoad
 from .points import Point
-from .surfaces import SurfaceContact, touches_with_its_own
+from .surfaces.surface import SurfaceContact, touches_with_its_own
 
 #: What refers to nothing.
 _PLAIN = (float, int, str, np.ndarray, type(None))
