@@ -161,6 +161,51 @@ class TestBalance:
             state.reaction(pins[1])
 
 
+def pushed(law, spin=0.0):
+    """A beam whose tip a support pushes down, with a damper beside it, and whose clamp may turn."""
+    model = ancf.Model(gravity=(0.0, 0.0, -9.81))
+    section = ancf.Section(EA=1e5, EI=10.0, rhoA=0.2, damping=0.3)
+    beam = model.add_beam("beam", start=(0, 0, 0), end=(1, 0, 0), elements=4, section=section)
+    model.clamp(beam.start, rotation=spin, axis=(0.0, 1.0, 0.0), name="root")
+    model.hold(beam.end, position="z", displacement=(0, 0, law), name="push")
+    model.add_spring(beam.end, (1, 0, 1), stiffness=1e-6, damping=20.0)
+    return model
+
+
+LAWS = {
+    "-0.01*t": lambda t: -0.01 * t,
+    "-0.005*t**2": lambda t: -0.005 * t**2,
+    "-0.02*sin(0.5*pi*t)": lambda t: -0.02 * np.sin(0.5 * np.pi * t),
+}
+
+
+class TestWhileSupportsMove:
+    """An equilibrium at a time is that of supports that stand: so are its reactions."""
+
+    @pytest.mark.parametrize("law", LAWS)
+    @pytest.mark.parametrize("t", [0.5, 2.0])
+    @pytest.mark.parametrize("spin", [0.0, "0.02*t"])
+    def test_they_are_those_of_supports_at_rest(self, law, t, spin):
+        place = LAWS[law](t)
+        moving = ancf.equilibrium(pushed(law, spin), time=t)
+        still = ancf.equilibrium(pushed(place, 0.02 * t if spin else 0.0))
+        for name in ("push", "root"):
+            assert moving.reaction(name) == pytest.approx(still.reaction(name), abs=1e-7)
+        assert moving.reaction_moment("root") == pytest.approx(still.reaction_moment("root"), abs=1e-7)
+
+    @pytest.mark.parametrize("rate", [0.5, 3.0])
+    def test_what_was_set_off_is_in_motion(self, rate):
+        """A rod that hangs from a pin and swings against a damper at its end, whose force the pin feels."""
+        model = ancf.Model(gravity=(0, 0, -G))
+        given = {"start": (0, 0, 0), "end": (0, 0, -2.0), "elements": 1}
+        rod = model.add_beam("rod", section=ancf.Section(EA=1e5, EI=1e3, rhoA=0.7), **given)
+        rod.set_motion(angular_velocity=(0.0, rate, 0.0))
+        model.pin(rod.start, name="pin")
+        model.add_spring(rod.end, (1, 0, -2), stiffness=1e-3, damping=10.0)
+        force = 10.0 * 2.0 * rate
+        assert 0.1 * force < ancf.equilibrium(model).reaction("pin")[0] < 0.9 * force
+
+
 class TestRefused:
     def test_unknown_support(self):
         model, beam = span(length=10.5)

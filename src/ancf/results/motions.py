@@ -46,7 +46,7 @@ class Motions:
         Components that the support does not hold are zero; of a clamp it is the force, without the
         moment. Of two supports that hold the same component of a node that bodies share, the one that
         was added first has it. It is what the equations of motion of a state leave; of a state that is no
-        equilibrium with all forces of inertia.
+        equilibrium with all forces of inertia. In an equilibrium supports that move count as at rest.
 
         Parameters
         ----------
