@@ -102,7 +102,7 @@ class Face(SpringFields, ContactFields, Momenta):
 
     def _held_forces(self, name: str, question: str) -> FloatArray:
         """What is out of balance, (..., size), for a support; at rest without accelerations."""
-        checked = None if self.beside else True
+        checked = None if self.beside else self.times is None
         forces = at_rest(self.system, self.q, self.v, self.t, name, checked) if self.q.ndim == 1 else None
         return self._in_motion(question)[1] if forces is None else forces
 

@@ -327,6 +327,11 @@ class Iteration:
             return False
         return negative == 0 or self.spin.is_free(self.solve, self.q, True, residual)
 
+    def drifts(self, dq: FloatArray) -> bool:
+        """Whether a correction, (n,), is a motion against which there is no stiffness."""
+        self._assemble(0.0, 1.0, False)
+        return is_neutral(to_sparse(self.core.A, self.system.places), dq)
+
     def harmless(self) -> bool:
         """Whether mu > 0 only makes up for round-off."""
         limit = (NEUTRAL_MU_JOINTS if self.expected else NEUTRAL_MU) * self.ratio

@@ -109,6 +109,9 @@ def settle(it: Iteration, share: float) -> str | None:
         it.last_moved = int(np.argmax(np.abs(dq) * it.core.weight))
         accepted = max(it.accepted, SPUN) if it.spinning else it.accepted
         settled = norm <= TOLERANCE or (norm <= accepted and _stalled(it, dq, r, share))
+        if not settled and it.mu > 0.0 and norm <= SPUN:
+            # what nothing holds goes as far as round-off lets it
+            settled = it.drifts(dq) and _stalled(it, dq, r, share)
         if settled and (it.mu == 0.0 or it.harmless()):
             it.q = it.moved(dq, 1.0)
             it.renew_multipliers(share)
