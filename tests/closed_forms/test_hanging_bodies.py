@@ -6,6 +6,7 @@ import pytest
 import ancf
 from upright import UP, axes
 
+G = 9.81
 #: From a joint to the centre of the body: hanging askew, level, askew upwards, nearly and exactly upright.
 ARMS = {
     "askew": (0.1, 0.0, -0.5),
@@ -19,7 +20,7 @@ ARMS = {
 def chain(count, arm, up, mass=2.0, size=1.0):
     """Bodies on ball joints, one on the other, the first one on the ground."""
     R = axes(up)
-    model, place, last = ancf.Model(gravity=tuple(-9.81 * R[2])), np.zeros(3), (0.0, 0.0, 0.0)
+    model, place, last = ancf.Model(gravity=tuple(-G * R[2])), np.zeros(3), (0.0, 0.0, 0.0)
     for k in range(count):
         d = size * (1.0 + 0.3 * k) * R.T @ ARMS[arm]
         inertia = tuple(mass * size**2 * x for x in (0.01, 0.015, 0.02))
@@ -60,7 +61,7 @@ def test_on_a_hinge_it_is_as_low_as_it_can_be(up, axis, arm):
     R = axes(up)
     e = R.T @ axis / np.linalg.norm(axis)  # never upright
     d = R.T @ ARMS[arm]
-    model = ancf.Model(gravity=tuple(-9.81 * R[2]))
+    model = ancf.Model(gravity=tuple(-G * R[2]))
     body = model.add_rigid_body("body", at=tuple(d), mass=2.0, inertia=(0.02, 0.03, 0.04))
     model.hinge(body.at(*-d), (0.0, 0.0, 0.0), axis=tuple(e))
     radius, down = np.linalg.norm(d - (d @ e) * e), -R[2] + (R[2] @ e) * e
@@ -90,3 +91,20 @@ def test_a_hook_on_a_rope(count, EI, arm):
     stretched = length + 9.81 * length * (total + 0.1 * length) / 1e6
     low = -stretched - (2 * count - 1) * np.linalg.norm(ARMS[arm])
     assert state.position(f"body{count - 1}") == pytest.approx((0.0, 0.0, low), abs=1e-6)
+
+
+@pytest.mark.parametrize("count", [1, 2, 3])
+@pytest.mark.parametrize("arm", ["askew", "upright"])
+@pytest.mark.parametrize(("mass", "size"), [(2.0, 1.0), (1e-3, 1e-2), (1e4, 30.0)])
+@pytest.mark.parametrize("up", UP)
+def test_modes_about_it(up, mass, size, arm, count):
+    """A compound pendulum swings in two planes with w^2 = m g l/(I + m l^2); it turns about itself freely."""
+    R, d = axes(up), size * axes(up).T @ ARMS["upright" if arm == "upright" else "askew"]
+    model, inertia = ancf.Model(gravity=tuple(-G * R[2])), 0.05 * mass * size**2
+    body = model.add_rigid_body("body", at=tuple(d), mass=mass, inertia=(inertia, inertia, inertia))
+    model.connect(body.at(*-d), (0.0, 0.0, 0.0))
+    arm_length = np.linalg.norm(d)
+    square = mass * G * arm_length / (inertia + mass * arm_length**2)
+    found = ancf.modes(model, about=ancf.equilibrium(model), count=count).frequencies_hz
+    expected = np.sqrt([0.0, square, square])[:count] / (2.0 * np.pi)
+    assert found == pytest.approx(expected, rel=1e-7, abs=1e-6 * np.sqrt(square))

@@ -1,7 +1,8 @@
 """How far round-off reaches: the unknowns of a state changed by what their last digits do not hold.
 
-A state vector holds positions to the last digit of the model's coordinates and slopes to that of 1.  What
-changes when these digits do is not known: forces, stiffnesses, and what follows from them.
+A state vector holds positions to the last digit of the model's coordinates, slopes to that of 1 and
+multipliers to that of the largest, which others balance.  What changes when these digits do is not known:
+forces, stiffnesses, and what follows from them.
 """
 
 from __future__ import annotations
@@ -22,10 +23,11 @@ TIMES, DIGITS = 4, 2.0
 def shaken(system: System, q: FloatArray) -> Iterator[FloatArray]:
     """State vectors beside q (size,), equal to it but for the last digits of the unknowns that are free."""
     n, weight = system.n, system.core.weight
-    free = np.setdiff1d(system.free, system.multipliers)
+    free, carried = system.free, np.intersect1d(system.free, system.multipliers)
     places = np.flatnonzero(np.isin(np.arange(n), _positions(system)))
     unit = np.where(weight > 0.0, 1.0 / np.where(weight > 0.0, weight, 1.0), 0.0)
     unit[places] = np.maximum(unit[places], np.max(np.abs(q[places]), initial=0.0))
+    unit[carried] = np.max(np.abs(q[carried]), initial=0.0)
     rng = np.random.default_rng(1)
     for _ in range(TIMES):
         near = q.copy()
