@@ -65,7 +65,9 @@ def natural_modes(system: System, q: FloatArray, count: int) -> tuple[FloatArray
     values, vectors = _eigen(K, M, C, count)
     for k in range(count):
         own, noise, spin = _own_stiffness(system, q, K, vectors[:, k], free)
-        if values[k] < 0.0 and own < -(SURELY * noise + spin):
+        if values[k] < 0.0 and own < -(
+            SURELY * max(noise, _noise(system, q, vectors[:, k], free, True)) + spin
+        ):
             what = f"mode {k + 1} has omega^2 = {values[k]:.4g} 1/s^2: the state is not a stable equilibrium"
             raise SolveError("modes", what, "give about=ancf.equilibrium(model)")
         seen = own if own > ROUNDED * noise else 0.0
@@ -149,12 +151,17 @@ def _own_stiffness(
     """
     own = float(x @ (K @ x))
     terms = float(np.abs(x) @ (abs(K) @ np.abs(x)))
-    stiffness = [_matrix(system, near, 0.0, 1.0)[free][:, free] for near in (q, *shaken(system, q))]
-    first, *others = (float(x @ (A @ x)) for A in stiffness)
-    noise = max(abs(other - first) for other in others) + np.finfo(float).eps * terms
+    noise = _noise(system, q, x, free, False) + np.finfo(float).eps * terms
     spin, whole = Spin(system, system.core.supports.held), np.zeros(system.n)
     whole[free] = x
     return own, noise, FREE_SPIN * float(whole @ spin.times(whole, q))
+
+
+def _noise(system: System, q: FloatArray, x: FloatArray, free: IntArray, strained: bool) -> float:
+    """What last digits of the state change of x.K x, see :func:`shaken`."""
+    near = (q, *shaken(system, q, strained))
+    first, *others = (float(x @ (_matrix(system, one, 0.0, 1.0)[free][:, free] @ x)) for one in near)
+    return max(abs(other - first) for other in others)
 
 
 def dense(K: FloatArray, M: FloatArray, count: int, shift: float) -> tuple[FloatArray, FloatArray]:

@@ -27,7 +27,7 @@ from ..events import happen
 from ..record import Stats
 from .floating import check_supported
 from .iteration import Iteration
-from .path import LOAD, follow_path, settle
+from .path import LOAD, follow_path, polish, settle
 from .pressed import least_stretch
 from .slack import LET_OUT, Slack
 from .turning import Turning
@@ -87,6 +87,7 @@ def equilibrium(
         slack.set(0.0, 0.0)
         core.loads.value[:] = it.inputs
     _whole_multipliers(it)
+    polish(it, 1.0)
     leaned = Leaned(first if it.laid is None else it.laid, it.laid is not None, system.kept_memory())
     keep_memory(core.remembering, it.q, it.zero)
     seconds = clock.process_time() - cpu

@@ -17,9 +17,11 @@ from .iteration import MORE_MU, Iteration
 
 LOAD = "of the load"  # what a path is one of, for messages
 TOLERANCE = 1e-12  # of a correction, positions relative to the size of the model
-MAX_ITERATIONS = 300  # in a load step
+MAX_ITERATIONS = 300  # in a load step; of joined bodies up to MOST_ITERATIONS while as many leave less than
+MOST_ITERATIONS, LEFT = 3000, 0.8  # this of the residual: they may fall for long
 PLAIN = 150  # of them without a line search
 MOST_HALVINGS = 12  # of a load step
+POLISHED = 5  # corrections of a state that has settled
 LEAST_SLOPE = 1e-6  # |r_x| of a cable, below which its direction and curvature mean nothing
 WHOLE = 1e-12  # of the path, by which its end may be missed
 SPUN = 1e-5  # accepted where sections or bodies spin freely, which leaves their angle open
@@ -91,10 +93,15 @@ def settle(it: Iteration, share: float) -> str | None:
     """Newton iterations for one share of the loads; None, or what went wrong."""
     r = it.out_of_balance(it.q, share)
     it.mixed.correct(it.zero)
-    disturbed, norm, it.last = False, np.inf, np.inf
-    for number in range(MAX_ITERATIONS):
+    disturbed, norm, it.last, before = False, np.inf, np.inf, np.inf
+    for number in range(MOST_ITERATIONS if it.expected else MAX_ITERATIONS):
         if not np.all(np.isfinite(r)):
             return "the forces are not finite"
+        if number % MAX_ITERATIONS == 0:
+            size = float(np.linalg.norm(r))
+            if not size < LEFT * before:
+                break
+            before = size
         regular = it.mu == 0.0
         try:
             dq = it.correction(r)
@@ -124,7 +131,20 @@ def settle(it: Iteration, share: float) -> str | None:
         it.q = disturb(it)
         it.mixed.correct(it.zero)
         r = it.out_of_balance(it.q, share)
-    return f"Newton's method did not converge in {MAX_ITERATIONS} iterations, last correction {norm:.2e}"
+    return f"Newton's method did not converge in {number} iterations, last correction {norm:.2e}"
+
+
+def polish(it: Iteration, share: float) -> None:
+    """Corrections with the last factors while each takes half of what is left."""
+    if not it.expected or it.core.joints.tail:
+        return
+    r = it.out_of_balance(it.q, share)
+    for _ in range(POLISHED):
+        q = it.moved(it.solve(r), 1.0)
+        left = it.out_of_balance(q, share)
+        if not np.linalg.norm(left) < REDUCED * np.linalg.norm(r):
+            return
+        it.q, r = q, left
 
 
 def _advance(it: Iteration, dq: FloatArray, r: FloatArray, share: float, number: int) -> FloatArray:
