@@ -87,7 +87,7 @@ def equilibrium(
         slack.set(0.0, 0.0)
         core.loads.value[:] = it.inputs
     _whole_multipliers(it)
-    polish(it, 1.0)
+    polish(it)
     leaned = Leaned(first if it.laid is None else it.laid, it.laid is not None, system.kept_memory())
     keep_memory(core.remembering, it.q, it.zero)
     seconds = clock.process_time() - cpu

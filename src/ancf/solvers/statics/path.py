@@ -93,7 +93,7 @@ def settle(it: Iteration, share: float) -> str | None:
     """Newton iterations for one share of the loads; None, or what went wrong."""
     r = it.out_of_balance(it.q, share)
     it.mixed.correct(it.zero)
-    disturbed, norm, it.last, before = False, np.inf, np.inf, np.inf
+    disturbed, norm, it.last, before, begun = False, np.inf, np.inf, np.inf, it.iterations
     for number in range(MOST_ITERATIONS if it.expected else MAX_ITERATIONS):
         if not np.all(np.isfinite(r)):
             return "the forces are not finite"
@@ -131,17 +131,18 @@ def settle(it: Iteration, share: float) -> str | None:
         it.q = disturb(it)
         it.mixed.correct(it.zero)
         r = it.out_of_balance(it.q, share)
-    return f"Newton's method did not converge in {number} iterations, last correction {norm:.2e}"
+    taken = it.iterations - begun
+    return f"Newton's method did not converge in {taken} iterations, last correction {norm:.2e}"
 
 
-def polish(it: Iteration, share: float) -> None:
-    """Corrections with the last factors while each takes half of what is left."""
+def polish(it: Iteration) -> None:
+    """Corrections under all loads with the last factors, while each takes half of what is left."""
     if not it.expected or it.core.joints.tail:
         return
-    r = it.out_of_balance(it.q, share)
+    r = it.out_of_balance(it.q, 1.0)
     for _ in range(POLISHED):
         q = it.moved(it.solve(r), 1.0)
-        left = it.out_of_balance(q, share)
+        left = it.out_of_balance(q, 1.0)
         if not np.linalg.norm(left) < REDUCED * np.linalg.norm(r):
             return
         it.q, r = q, left
