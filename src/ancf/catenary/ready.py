@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -51,8 +52,8 @@ class Ready:
         What spans need that are to sleep.
     wanted : list of Parameter
         By which derivatives are wanted.
-    alone : State or None
-        The line without pantographs with its derivatives, if they are wanted.
+    droppers : mapping
+        The droppers that these lengthen, by name.
 
     """
 
@@ -62,7 +63,17 @@ class Ready:
     rest: Rest
     sleep: Sleep | None
     wanted: list[Parameter]
-    alone: ancf.State | None
+    droppers: Mapping[str, Sequence[str]]
+
+    @cached_property
+    @garbage.without
+    def alone(self) -> ancf.State | None:
+        """The line without pantographs with its derivatives, if they are wanted."""
+        if not self.wanted:
+            return None
+        overhead = self.plan.door.overhead(self.plan.form)
+        wanted = parameters(overhead, overhead.model, self.droppers)
+        return ancf.equilibrium(overhead.model, sensitivities=wanted)
 
     @garbage.without
     def settings(self, integrator: Any) -> dict[str, Any]:
@@ -88,11 +99,10 @@ def ready(
     """Make the model of a plan, with inputs for forces on the pantographs if they are ``active``."""
     overhead, given = plan.door.overhead(plan.form), sensitivities or {}
     rest = _rest(plan)
-    alone = _alone(overhead, given)
     sleep = Sleep(ancf.equilibrium(overhead.model)) if sleeps else None
     collectors = _collectors(overhead, plan, active)
     wanted = parameters(overhead, overhead.model, given)
-    return Ready(plan, overhead, collectors, rest, sleep, wanted, alone)
+    return Ready(plan, overhead, collectors, rest, sleep, wanted, given)
 
 
 def integrator_of(plan: Plan, sleeps: bool) -> ancf.GeneralizedAlpha:
@@ -153,9 +163,3 @@ def _rest(plan: Plan) -> Rest:
     ]
     height = [float(state.position(point)[2]) for point in overhead.supports]
     return Rest(np.array(height), np.array(force))
-
-
-def _alone(overhead: Assembled, sensitivities: Mapping[str, Sequence[str]]) -> ancf.State | None:
-    """The line without pantographs with its derivatives, if they are wanted."""
-    wanted = parameters(overhead, overhead.model, sensitivities)
-    return ancf.equilibrium(overhead.model, sensitivities=wanted) if wanted else None

@@ -296,6 +296,13 @@ def factor_of(factor, e, m):
     return Factor(factor.row_start, factor.column, *own, factor.T, factor.place, factor.fill, factor.in_order)
 
 
+@formula
+def factor_itself(factor):
+    """The factors of a matrix that stands alone, as :func:`factor_of` gives them."""
+    own = factor.L, factor.LT, factor.D_inv
+    return Factor(factor.row_start, factor.column, *own, factor.T, factor.place, factor.fill, factor.in_order)
+
+
 @kernel
 def factorise_eight(factor, e, count, definite, both):
     """Fill the factors of the first ``count`` matrices; the number of the first that is singular, or -1.

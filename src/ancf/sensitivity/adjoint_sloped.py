@@ -10,6 +10,7 @@ from ..arrays import FloatArray
 from ..solvers.derivatives.adjoint_sloped import ROOM, back_sloped_start, back_sloped_steps
 from ..solvers.derivatives.sensitivity import Way
 from ..solvers.status import OK
+from ..solvers.step.low_rank import room_for_patches
 from .adjoint import Adjoint, UnsolvedError
 from .start import Start
 
@@ -19,9 +20,11 @@ class SlopedAdjoint(Adjoint):
 
     def _prepare(self) -> None:
         self._room, self._corrections = np.zeros((ROOM, self.system.size)), np.zeros(1)
+        self._patches = room_for_patches(self.system) if "contacts" in self.system.parts else ()
 
     def _back(self, way: Way, h: float, tables: Any, wanted: FloatArray, sums: Any) -> int:
-        given = self.system.core, self.m, self.ahead, self.back, tables, way, wanted, self.unknowns
+        core, m = self.system.core, self.m
+        given = core, m, (self._patches, self.ahead, self.back), tables, way, wanted, self.unknowns
         own = *sums, self._corrections, self._room
         _, status = back_sloped_steps(*given, h, self.run.scheme, *own)
         return int(status)

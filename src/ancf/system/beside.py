@@ -25,6 +25,7 @@ from ..model.surfaces.cable_contact import CableContact
 from ..model.surfaces.contact import Contact
 from ..model.surfaces.surface import SurfaceContact
 from .compile import Parts, beams_by_kind, bind_parts, build_bodies, build_slides, has_mass_of_its_own
+from .core import Loads
 from .inputs import Inputs
 from .probe import Probe, locate
 from .supports import collect
@@ -64,10 +65,13 @@ def beside(system: System, model: Model, acts: Acts) -> System:
     acts : Acts
     """
     made, own = System.__new__(System), {"core", "double"}
-    own |= {"dead", "patterns"} if acts.weighs else set()
+    dead = _weighed(system, model) if acts.weighs else None
+    own |= {"dead", "patterns"} if acts.weighs and dead is None else set()
     own |= {"supports"} if acts.moves else set()
     made.__dict__.update((key, value) for key, value in system.__dict__.items() if key not in own)
     made.model = model
+    if dead is not None:
+        made.dead = dead
     if acts.moves:
         made.constraints = collect(model, system.numbering)
         made.constraints.held |= set(system.spare.tolist())
@@ -78,6 +82,21 @@ def beside(system: System, model: Model, acts: Acts) -> System:
         rank = np.arange(system.numbering.blocks, dtype=np.int64)
         made.parts = system.parts | bound | bind_parts(parts, rank, system.constraints, system.places)
     return made
+
+
+def _weighed(system: System, model: Model) -> Loads | None:
+    """Dead loads where nothing but masses that stand at one place are others, or None."""
+    mine = system.model.bodies
+    changed = [(mine[name], body) for name, body in model.bodies.items() if body is not mine[name]]
+    if not np.array_equal(model.gravity, system.model.gravity):
+        return None
+    still = system.dead.still.copy()
+    for old, new in changed:
+        if isinstance(old, Beam) or isinstance(new, Beam):
+            return None
+        at = system.numbering.slots[old.name][0, 0]
+        still[at : at + 3] += (new.mass - old.mass) * np.asarray(model.gravity)
+    return system.dead._replace(still=still, gravity=still.copy())
 
 
 def _renumbered(system: System, model: Model, acts: Acts) -> Parts:

@@ -6,33 +6,40 @@ With T_q, T_v and T_a the derivatives of R by q, v and a, a step solves T^T lamb
 
 where the matrix A in the factors lacks of T what tangents leave out, as the turning of drag or a contact.
 T^T d is the product of the exact matrices and the slopes of the work d . force of the others.  Corrections
-are conjugate residuals: each is A^-1 times what is left, less its parts along those before it, and takes
-from what is left all that it can.  So what is lacking of few rows, however stiff, ends after as many.
+are A^-1 times what is left, as long as each is small beside the one before it.  Others are conjugate
+residuals: less their parts along those before them, they take from what is left all that they can.  So what
+is lacking of few rows, however stiff, ends after as many.
 """
 
 from __future__ import annotations
 
+import numpy as np
+
 from ...batches import add_tangents
 from ...compiled import inline_kernel, kernel
-from ...linalg.eight import factor_of
+from ...linalg.eight import factor_itself, factor_of
 from ...simd import LANES
 from ...system.core import drive, onto_shadows, solve_matrix, to_local
 from ..rare import add_all_slopes, add_rate_works, add_tangent_works
 from ..status import OK, SINGULAR, SLOW
 from ..step.scheme import coefficients
 from .adjoint import SURE, add_turns, folded, hold, take_wanted, to_start
-from .ahead import look_ahead
+from .ahead import look_ahead, look_at, looks_ahead
 from .friction import bring
 from .friction_back import is_there, through_force, through_memory
 from .sensitivity import LEAST, MOST, NOISY, product, stiffnesses
+from .strips import give_way, meet
 
 #: Directions that are kept, vectors of each: it, A and T^T times it, and that by q, v and a.
 KEPT, OF_EACH = 10, 6
 #: Corrections after which those that do not shrink may be round-off.
 MANY = 5
+#: Part of lambda that a plain correction may be, and part of the one before it; steps without such
+#: corrections after one that was more.
+MILD, MILDER, PAUSE = 1e-2, 5e-2, 64
 #: Vectors of room: T_q^T, T_v^T, T_a^T lambda; the same of a correction; what A lacks, twice; what is left, a
-#: correction, what is solved for, room of products.
-SUMS, OWN, LACKS, LEFT, CHANGE, GOAL, WORK, FIRST = 0, 3, 6, 8, 9, 10, 11, 13
+#: correction, what is solved for, room of products, how many steps have no plain corrections yet.
+SUMS, OWN, LACKS, LEFT, CHANGE, GOAL, WORK, HARD, FIRST = 0, 3, 6, 8, 9, 10, 11, 13, 14
 ROOM = FIRST + OF_EACH * KEPT
 
 
@@ -67,10 +74,11 @@ def whole(core, weights, sums, r):
 
 
 @inline_kernel
-def solved(core, factor, x):
-    """A^-1 x, the shadows filled."""
+def solved(core, patches, factor, weights, x):
+    """A^-1 x, the shadows filled; A with the contacts of strips."""
     n = core.weight.shape[0]
     solve_matrix(factor, x)
+    give_way(patches, weights[1], x)
     for i in range(n, x.shape[0]):
         x[i] = 0.0
     onto_shadows(core.supports, x)
@@ -94,23 +102,65 @@ def add_times(f, x, y):
 
 
 @inline_kernel
-def largest(x, n):
-    """The largest of the first n by size."""
-    size = 0.0
-    for i in range(n):
-        size = max(size, abs(x[i]))
-    return size
-
-
-@inline_kernel
-def begun(core, factor, known, lam, room):
+def begun(core, m, patches, factor, matrices, weights, y, known, lam, room):
     """Solve with what A lacked in the later steps, ``known`` of them, led on; that is left in room[LACKS]."""
-    goal, one, two = room[GOAL], room[LACKS], room[LACKS + 1]
+    goal, one, two, sums = room[GOAL], room[LACKS], room[LACKS + 1], room[SUMS:OWN]
     for i in range(lam.shape[0]):
         guess = 0.0 if known == 0 else (one[i] if known == 1 else 2.0 * one[i] - two[i])
         two[i], one[i] = one[i], guess
         lam[i] = goal[i] - guess
-    solved(core, factor, lam)
+        sums[0, i] = sums[1, i] = sums[2, i] = 0.0
+    meet(patches, core, factor, y[0], y[1])
+    solved(core, patches, factor, weights, lam)
+    add_exact(core, m, matrices, y, lam, sums, room[WORK:HARD])
+    add_slopes(core, m, y, lam, sums)
+    leave(core, weights, room)
+
+
+@inline_kernel
+def leave(core, weights, room):
+    """What is left of the goal, without the product that the sums are of."""
+    goal, left = room[GOAL], room[LEFT]
+    whole(core, weights, room[SUMS:OWN], left)
+    for i in range(left.shape[0]):
+        left[i] = goal[i] - left[i]
+
+
+@inline_kernel
+def correction(core, patches, factor, weights, lam, room):
+    """A^-1 times what is left; the sizes of it and of lambda."""
+    left, change, norm, size = room[LEFT], room[CHANGE], 0.0, 0.0
+    for i in range(left.shape[0]):
+        change[i] = left[i]
+    solved(core, patches, factor, weights, change)
+    for i in range(core.weight.shape[0]):
+        norm, size = max(norm, abs(change[i])), max(size, abs(lam[i]))
+    return norm, size
+
+
+@inline_kernel
+def plainly(core, m, patches, factor, matrices, weights, y, lam, count, room):
+    """Corrections as they are, while they shrink; whether they ended, and the size of the last one.
+
+    The last one is still to be added if they did not.
+    """
+    sums, change, lacks, left, before = room[SUMS:OWN], room[CHANGE], room[LACKS], room[LEFT], 0.0
+    for round in range(MOST):
+        count[0] += 1.0
+        norm, size = correction(core, patches, factor, weights, lam, room)
+        ends = may_end(norm, size, before, round)
+        if not ends and not norm <= (MILD * size if round == 0 else MILDER * before):
+            return False, norm
+        before = norm
+        for i in range(lam.shape[0]):
+            lam[i] += change[i]
+            lacks[i] -= left[i]
+        add_exact(core, m, matrices, y, change, sums, room[WORK:HARD])
+        if ends:
+            return True, norm
+        add_slopes(core, m, y, change, sums)
+        leave(core, weights, room)
+    return False, before
 
 
 @inline_kernel
@@ -147,33 +197,39 @@ def may_end(norm, size, before, round):
 
 
 @inline_kernel
-def solve(core, m, factor, matrices, weights, y, known, lam, count, room):
+def solve(core, m, patches, factor, matrices, weights, y, known, lam, count, room):
     """Fill lambda for room[GOAL], and room[SUMS] of it; a status.
 
     ``known``: how many steps have been solved before; ``count``: of all corrections, is added to.
     """
-    n, sums, own, before = core.weight.shape[0], room[SUMS:OWN], room[OWN:LACKS], 0.0
-    left, change, w, lacks = room[LEFT], room[CHANGE], room[WORK:FIRST], room[LACKS]
-    begun(core, factor, known, lam, room)
-    for k in range(SUMS, LACKS):
-        for i in range(lam.shape[0]):
-            room[k, i] = 0.0
-    add_exact(core, m, matrices, y, lam, sums, w)
-    add_slopes(core, m, y, lam, sums)
-    whole(core, weights, sums, change)
-    for i in range(lam.shape[0]):
-        left[i] = room[GOAL, i] - change[i]
+    given = (core, m, patches, factor, matrices, weights, y)
+    begun(core, m, patches, factor, matrices, weights, y, known, lam, room)
+    if room[HARD, 0] > 0.0:
+        room[HARD, 0] -= 1.0
+        return entangled(*given, lam, count, room, np.inf, 0)
+    ended, norm = plainly(*given, lam, count, room)
+    if ended:
+        return OK
+    room[HARD, 0] = PAUSE
+    return entangled(*given, lam, count, room, norm, 1)
+
+
+@inline_kernel
+def entangled(core, m, patches, factor, matrices, weights, y, lam, count, room, norm, known):
+    """Corrections as conjugate residuals; a status.  ``known``: the first one is there, of size ``norm``."""
+    sums, own, before = room[SUMS:OWN], room[OWN:LACKS], 0.0
+    left, change, w, lacks = room[LEFT], room[CHANGE], room[WORK:HARD], room[LACKS]
     for round in range(MOST):
-        count[0] += 1.0
-        for i in range(lam.shape[0]):
-            change[i] = left[i]
-        solved(core, factor, change)
-        norm, size = largest(change, n), largest(lam, n)
+        if round >= known:
+            count[0] += 1.0
+            norm, size = correction(core, patches, factor, weights, lam, room)
+        else:
+            size = np.inf
         for k in range(OWN, LACKS):
             for i in range(lam.shape[0]):
                 room[k, i] = 0.0
         add_exact(core, m, matrices, y, change, own, w)
-        if may_end(norm, size, before, round):
+        if round >= known and may_end(norm, size, before, round):
             for i in range(lam.shape[0]):
                 lam[i] += change[i]
                 lacks[i] -= left[i]
@@ -196,16 +252,15 @@ def solve(core, m, factor, matrices, weights, y, known, lam, count, room):
 
 @inline_kernel
 def take(core, y, mu, room, still, turned):
-    """Take the sums from mu_q and mu_v; they are added to ``still`` and ``turned``."""
-    sums, back = room[SUMS:OWN], room[WORK:FIRST]
+    """Take the sums from mu_q and mu_v; they are added to ``still`` and ``turned``, and used up."""
+    sums = room[SUMS:OWN]
     add_turns(core.supports, sums, y, turned)
     for i in range(still.shape[0]):
-        back[0, i], back[1, i] = sums[0, i], sums[1, i]
         still[i] += sums[0, i]
-    folded(core.supports, sums, back)
+    folded(core.supports, sums, sums)  # what is at shadows goes to their unknowns
     for i in range(core.weight.shape[0]):
-        mu[0, i] -= back[0, i]
-        mu[1, i] -= back[1, i]
+        mu[0, i] -= sums[0, i]
+        mu[1, i] -= sums[1, i]
 
 
 @inline_kernel
@@ -236,7 +291,7 @@ def back_sloped_start(core, m, friction, back, y, wanted, unknowns, mu, lam, sti
     for i in range(lam.shape[0]):
         room[GOAL, i] = mu[2, i] + mu[3, i] if i < n else 0.0
     hold(core.supports, room[GOAL])
-    status = solve(core, m, core.factor, (K, C), (0.0, 0.0, 1.0), y, 0, lam, count, room)
+    status = solve(core, m, (), core.factor, (K, C), (0.0, 0.0, 1.0), y, 0, lam, count, room)
     take(core, y, mu, room, still, turned)
     through_force(back, y[0], y[1], lam, core.ws)
     if back.anew:
@@ -252,15 +307,16 @@ def back_sloped_start(core, m, friction, back, y, wanted, unknowns, mu, lam, sti
 
 @kernel
 def back_sloped_steps(
-    core, m, ahead, back, tables, way, wanted, unknowns, h, scheme, mu, out, still, turned, count, room
+    core, m, given, tables, way, wanted, unknowns, h, scheme, mu, out, still, turned, count, room
 ):
     """Carry the adjoint back through the steps of a block.
 
     Parameters
     ----------
-    core, m, ahead, tables, way, wanted, unknowns, h, scheme, mu, out, still, turned
+    core, m, tables, way, wanted, unknowns, h, scheme, mu, out, still, turned
         See :func:`ancf.solvers.derivatives.adjoint.back_steps`.
-    back : Forgetting
+    given : (tuple of Patches, Ahead, Forgetting)
+        Patches: one, for contacts of strips, or none.
     count : (1,)
         Corrections, added to.
     room : (ROOM, size)
@@ -269,26 +325,31 @@ def back_sloped_steps(
     -------
     Steps done and the status of the last one.
     """
+    patches, ahead, back = given
     B, G = coefficients(h, scheme)
     c1 = (1.0 - scheme.alpha_f) / (1.0 - scheme.alpha_m)
     n, size, weights = core.weight.shape[0], mu.shape[1], (1.0, G / B, 1.0 / B)
+    at_once = looks_ahead(ahead)
     for step in range(way.q.shape[0]):
         at = way.q.shape[0] - 1 - step
-        k = at % LANES
-        fresh = step == 0 or k == LANES - 1
+        k = at % LANES if at_once else 0
+        fresh = at_once and (step == 0 or k == LANES - 1)
         if fresh and look_ahead(core, m, ahead, tables, way, at - k, B, G, True) >= 0:
             return step, SINGULAR
         drive(core.supports, core.loads.value, tables, at, way.q[at], way.v[at], way.a[at])
         bring(ahead.friction, at)
+        if not at_once and not look_at(core, m, ahead, way, at, B, G):
+            return step, SINGULAR
         lam, y = out[at], (way.q[at], way.v[at], way.a[at])
         if is_there(back):
             take_memory(core, back, y, mu, room, still, turned)
         take_wanted(core.supports, wanted[at], unknowns, mu, m.work[5:8], m.work[1:3])
-        factor, matrices = factor_of(core.factor, ahead.eight, k), (ahead.K[k], ahead.C[k])
+        factor = factor_of(core.factor, ahead.eight, k) if at_once else factor_itself(core.factor)
+        matrices = (ahead.K[k], ahead.C[k])
         for i in range(size):
             room[GOAL, i] = mu[0, i] + (G * mu[1, i] + c1 * mu[3, i] + mu[2, i]) / B if i < n else 0.0
         hold(core.supports, room[GOAL])
-        status = solve(core, m, factor, matrices, weights, y, min(step, 2), lam, count, room)
+        status = solve(core, m, patches, factor, matrices, weights, y, min(step, 2), lam, count, room)
         if status != OK:
             return step, status
         take(core, y, mu, room, still, turned)

@@ -1,4 +1,7 @@
-"""The matrices of the steps of a block whose states are known: eight of them are factorised at once."""
+"""The matrices of the steps of a block whose states are known: eight of them are factorised at once.
+
+What eight factors of a long line need is more than fits near a processor; there they come one by one.
+"""
 
 from __future__ import annotations
 
@@ -13,9 +16,12 @@ from ...linalg.eight import Eight, allocate_eight, factorise_eight
 from ...linalg.eight_twisted import Twisted, allocate_twisted, factorise_twisted
 from ...records import recorded
 from ...simd import LANES
-from ...system.core import Core, drive, restrict
+from ...system.core import Core, drive, factorise_matrix, restrict
 from .friction import Friction, bring, no_friction
 from .sensitivity import Matrices, stiffnesses
+
+#: Values of a matrix, 100 kB, of which eight are too many at once.
+LARGE = 12500
 
 
 @recorded
@@ -89,6 +95,20 @@ def turn_twists(core, ahead, count):
         restrict(supports, turned[k])
         for i in range(supports.held_one.shape[0]):
             turned[k, supports.held_one[i]] = 0.0
+
+
+@inline_kernel
+def looks_ahead(ahead):
+    """Whether the matrices of eight steps are to be factorised at once."""
+    return ahead.eight.A.shape[1] < LARGE
+
+
+@inline_kernel
+def look_at(core, m, ahead, way, n, B, G):
+    """Fill the matrices of step n, whose supports are driven, and the factors of the core; if these exist."""
+    A, x = ahead.eight.A[0], (way.q[n], way.v[n])
+    matrices_at(core, m, ahead.K[0], ahead.C[0], ahead.W[0], A, x[0], x[1], B, G)
+    return factorise_matrix(A, core.factor) >= 0
 
 
 @inline_kernel

@@ -145,10 +145,15 @@ def add_slots(core, p, listed, count):
 
 
 @inline_kernel
-def fill(core, p, k, count):
-    """Row k of B, of Z and of the products; z_k holds b_k in physical components, in so many slots."""
+def fill(core, factor, p, k, count):
+    """Row k of B, of Z and of the products; z_k holds b_k in physical components, in so many slots.
+
+    What is held takes no part: the rows of the matrix there are those of the identity.
+    """
     z, w, ranges = p.back[k], 0, 0
     to_local(core.supports, z)
+    for m in range(core.supports.held.shape[0]):
+        z[core.supports.held[m]] = 0.0
     for m in range(count):
         block = p.slots[m] // 6
         for i in range(p.slots[m], p.slots[m] + 3):
@@ -161,14 +166,14 @@ def fill(core, p, k, count):
             p.low[k, ranges], p.high[k, ranges] = block, block + 1
             ranges += 1
     p.width[k] = w
-    p.ranges[k] = solve_near(core.factor, core.joints.first, z, p.low[k], p.high[k], ranges, p.spread)
+    p.ranges[k] = solve_near(factor, core.joints.first, z, p.low[k], p.high[k], ranges, p.spread)
     for j in range(p.used[0]):
         p.gram[j, k] = times(p, j, z)
         p.gram[k, j] = p.gram[j, k]
 
 
 @inline_kernel
-def renew_contacts(core, p, q, v, n):
+def renew_contacts(core, factor, p, q, v, n):
     """Rows of the contacts in the state q, v."""
     for j in range(p.contacts.slot.shape[0]):
         empty(p, j, n)
@@ -176,7 +181,7 @@ def renew_contacts(core, p, q, v, n):
         if pushes:
             add_row(p.contacts, j, e, xi, m, 1.0, p.back[j])
             count = add_slots(core, p, p.contacts.slot[j], 0)
-            fill(core, p, j, add_slots(core, p, p.contacts.line_slot[e], count))
+            fill(core, factor, p, j, add_slots(core, p, p.contacts.line_slot[e], count))
         p.spring[j] = pushes
     p.used[1] = 0
 
@@ -193,7 +198,7 @@ def place_of(core, p, e, q, n):
     empty(p, k, n)
     spring_gradient(p.springs, e, q, p.back[k])
     p.spring[k], p.used[0] = e, k + 1
-    fill(core, p, k, add_slots(core, p, p.springs.base[e], 0))
+    fill(core, core.factor, p, k, add_slots(core, p, p.springs.base[e], 0))
     return k
 
 
@@ -204,7 +209,7 @@ def changed(core, p, q, v, gb, n):
     for j in range(p.contacts.slot.shape[0]):
         closed = p.spring[j] == 0 and p.contacts.found[j, FORCE] > 0.0
         if p.used[1] >= KEPT or (closed and p.used[1] > 0):
-            renew_contacts(core, p, q, v, n)
+            renew_contacts(core, core.factor, p, q, v, n)
     for j in range(p.contacts.slot.shape[0]):
         if p.spring[j] != 0 and p.contacts.found[j, FORCE] > 0.0:
             p.active[m] = j
@@ -271,17 +276,18 @@ def correct_border(border, p, m, n, x):
     spread(border, p.total, x)
 
 
-def _correct(patches, core, q, v, gb, x):
-    p, n, border = patches[0], 6 * core.joints.first, core.joints.border
-    m = changed(core, p, q, v, gb, n)
-    if m == 0:
-        return
+@inline_kernel
+def fill_small(p, m):
+    """Add the products of the active rows to what ``small`` has of them, on its diagonal."""
     for i in range(m):
         for j in range(m):
             g = p.gram[p.active[i], p.active[j]]
             p.small[i, j] = g + p.small[i, i] if i == j else g
-    if has_rows(core.joints):
-        meet_border(border, p, m)
+
+
+@inline_kernel
+def take_out(p, m, x):
+    """Correct x by the active rows; ``small`` is used up, and holds their shares in its column m."""
     for i in range(m):
         p.small[i, m] = times(p, p.active[i], x)
     eliminate(p.small, m)
@@ -291,6 +297,17 @@ def _correct(patches, core, q, v, gb, x):
         for piece in range(p.ranges[k]):
             for i in range(6 * p.low[k, piece], 6 * p.high[k, piece]):
                 x[i] -= y * z[i]
+
+
+def _correct(patches, core, q, v, gb, x):
+    p, n, border = patches[0], 6 * core.joints.first, core.joints.border
+    m = changed(core, p, q, v, gb, n)
+    if m == 0:
+        return
+    fill_small(p, m)
+    if has_rows(core.joints):
+        meet_border(border, p, m)
+    take_out(p, m, x)
     if has_rows(core.joints):
         correct_border(border, p, m, n, x)
 
