@@ -8,7 +8,7 @@ from ancf.design.backwards import gradient_of
 from ancf.design.formulas import Formula, Vocabulary
 from ancf.design.gradient import OF_RUN, Histories, slopes_of
 from ancf.paper import cantilever
-from ancf.sensitivity import adjoint, adjoint_joints
+from ancf.sensitivity import adjoint, adjoint_joints, blocks
 from ancf.sensitivity.adjoint import Adjoint
 from ancf.sensitivity.adjoint_joints import adjoint_of
 from ancf.system.system import System
@@ -146,7 +146,7 @@ def test_steps_taken_again_give_the_same(monkeypatch):
     model = cantilever.build(2)
     given = {"t_end": 0.05, "step": 5e-4}
     first = ancf.gradient(model, OBJECTIVES[1], ["beam.EI", "gravity"], **given)
-    monkeypatch.setattr(adjoint, "KEPT", 0.0)
+    monkeypatch.setattr(blocks, "KEPT", 0.0)
     again = ancf.gradient(model, OBJECTIVES[1], ["beam.EI", "gravity"], **given)
     assert again[0] == first[0]
     assert again[1] == pytest.approx(first[1], rel=1e-10)
@@ -158,12 +158,12 @@ def test_no_more_snapshots_than_steps_between_them(elements, steps, monkeypatch)
     made = []
 
     class Counted(adjoint.Adjoint):
-        def forwards(self):
-            found = super().forwards()
+        def forwards(self, others=None):
+            found = super().forwards(others)
             made.append(len([block for block in self.blocks if block.snapshot is not None]))
             return found
 
-    monkeypatch.setattr(adjoint, "KEPT", 0.0)
+    monkeypatch.setattr(blocks, "KEPT", 0.0)
     monkeypatch.setattr(adjoint_joints, "Adjoint", Counted)
     ancf.gradient(cantilever.build(elements), OBJECTIVES[1], ["beam.EI"], t_end=steps * 1e-4, step=1e-4)
     assert 2 <= made[0] <= 1.5 * np.sqrt(steps)  # energies are looked at between blocks

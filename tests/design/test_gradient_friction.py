@@ -8,7 +8,7 @@ from test_friction_memory import DAMPED, HILLS, TRAPEZOIDAL, dragged, fallen, hu
 
 import ancf
 from ancf.model.vary import varied
-from ancf.sensitivity import adjoint
+from ancf.sensitivity import blocks
 from ancf.sensitivity.adjoint_joints import JoinedAdjoint, adjoint_of
 from ancf.sensitivity.adjoint_sloped import SlopedAdjoint
 from ancf.system.system import System
@@ -163,10 +163,10 @@ def test_blocks_that_are_taken_again(steps, elements, monkeypatch):
     """From snapshots, where memories come back as well."""
     model, given = dragged(aside=4.0, elements=elements), settings(5e-4, steps=steps)
     _, at_once = ancf.gradient(model, TIP, NAMES + GROUND, **given)
-    monkeypatch.setattr(adjoint, "BLOCK", 1.0)
+    monkeypatch.setattr(blocks, "BLOCK", 1.0)
     _, kept = ancf.gradient(model, TIP, NAMES + GROUND, **given)
-    monkeypatch.setattr(adjoint, "KEPT", 0.0)
-    monkeypatch.setattr(adjoint, "LARGEST", 1.0)
+    monkeypatch.setattr(blocks, "KEPT", 0.0)
+    monkeypatch.setattr(blocks, "LARGEST", 1.0)
     _, again = ancf.gradient(model, TIP, NAMES + GROUND, **given)
     assert again == kept
     assert apart(model, at_once, kept) < 1e-9

@@ -9,7 +9,7 @@ from jointed import arms, machine, methods
 
 import ancf
 from ancf.paper import sliding
-from ancf.sensitivity import adjoint
+from ancf.sensitivity import blocks
 from ancf.sensitivity.adjoint import Adjoint
 from ancf.sensitivity.adjoint_joints import JoinedAdjoint, adjoint_of
 from ancf.solvers.status import SLOW
@@ -124,7 +124,7 @@ def test_any_number_of_steps(steps):
 def test_steps_taken_again_give_the_same(monkeypatch):
     given = settings(ancf.Trapezoidal(), 90)
     first = ancf.gradient(machine(), OF_PARTS[1], PARTS, **given)
-    monkeypatch.setattr(adjoint, "KEPT", 0.0)
+    monkeypatch.setattr(blocks, "KEPT", 0.0)
     again = ancf.gradient(machine(), OF_PARTS[1], PARTS, **given)
     assert again[0] == first[0]
     assert again[1] == pytest.approx(first[1], rel=1e-10)

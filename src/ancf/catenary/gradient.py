@@ -9,15 +9,15 @@ from typing import Any
 
 import numpy as np
 
-import ancf
-
 from .. import garbage
 from ..arrays import FloatArray, IntArray
 from ..errors import ModelError
 from ..model import checks
 from ..model.points import Point
-from ..preparation import prepared
-from ..sensitivity.adjoint import UnsolvedError
+from ..preparation import Prepared, prepared
+from ..results.result import Result
+from ..results.store import MemoryStore
+from ..sensitivity.adjoint import Adjoint, UnsolvedError
 from ..sensitivity.adjoint_joints import adjoint_of
 from ..sensitivity.answers import Face
 from ..sensitivity.objective import Key, touched_by
@@ -138,16 +138,18 @@ def gradient(
     begun = ready(plan, active=False, sleeps=False, sensitivities=wanted)
     if not begun.wanted:
         raise ModelError(f"{WHERE}.droppers", "must name a dropper", '{"first": ["6-1"]}, or None for all')
-    settings = {**settings_of(begun, integrator), "t_end": plan.duration, "output_step": plan.duration}
-    run = recorded(ancf.simulate(begun.overhead.model, **settings), begun, {})
-    evaluated = check_pantograph(run, WHERE, evaluated)
-    weights = weights_of(run, objective, evaluated, chosen)
+    settings = {**settings_of(begun, integrator), "t_end": plan.duration}
+
+    def weighed(run: Run) -> Weights:
+        return weights_of(run, objective, check_pantograph(run, WHERE, evaluated), chosen)
+
     with suppress(UnsolvedError):  # what it cannot solve, sensitivities may
-        found = _backwards(begun, settings, weights, evaluated, run)
+        found = _backwards(begun, settings, weighed, evaluated)
         if found is not None:
-            return weights.value, found
-    forwards = slopes(simulated(plan, integrator, None, sensitivities=wanted), evaluated, chosen)
-    return weights.value, {name: own[objective] for name, own in forwards.items()}
+            return found
+    run = simulated(plan, integrator, None, sensitivities=wanted)
+    own = slopes(run, check_pantograph(run, WHERE, evaluated), chosen)
+    return weighed(run).value, {name: numbers[objective] for name, numbers in own.items()}
 
 
 def _each(plan: Plan, broken: Sequence[str]) -> dict[str, list[str]]:
@@ -158,23 +160,33 @@ def _each(plan: Plan, broken: Sequence[str]) -> dict[str, list[str]]:
 
 @garbage.without
 def _backwards(
-    begun: Ready, settings: dict[str, Any], weights: Weights, evaluated: int, run: Run
-) -> dict[str, float] | None:
-    """Derivatives by parameter, or None where the model has no adjoint."""
-    kept = {key: settings[key] for key in ("t_end", "step", "start")}
-    given: dict[str, Any] = {"output_step": None, "sensors": None, "energy": False, "where": WHERE}
-    made = prepared(begun.overhead.model, method=settings["integrator"], **kept, **given)
+    begun: Ready, settings: dict[str, Any], weighed: Callable[[Run], Weights], evaluated: int
+) -> tuple[float, dict[str, float]] | None:
+    """The number and its derivatives by parameter, or None where the model has no adjoint."""
+    kept = {key: settings[key] for key in ("t_end", "step", "start", "sensors", "energy")}
+    made = prepared(
+        begun.overhead.model, method=settings["integrator"], **kept, output_step=None, where=WHERE
+    )
     way = adjoint_of(made.system)
     if way is None:  # as with sliding joints that only push
         return None
+    adjoint = way(made, begun.wanted, settings["start"], WHERE)
+    run = recorded(_taken(adjoint, made), begun, {})
+    weights = weighed(run)
     asking = _Asking(begun, weights, evaluated, run)
-    unknowns = {key: asking.unknowns(made.system, key) for key in asking.weights}
-    adjoint = way(made, begun.wanted, settings["start"], asking, unknowns, WHERE)
-    adjoint.forwards()
+    adjoint.ask(asking, {key: asking.unknowns(made.system, key) for key in asking.weights})
     total = adjoint.backwards(asking.weights) + asking.of_rest()
     if not np.all(np.isfinite(total)):
         raise ModelError(WHERE, "the number has no finite derivative")
-    return {one.name: float(x) for one, x in zip(begun.wanted, total, strict=True)}
+    return weights.value, {one.name: float(x) for one, x in zip(begun.wanted, total, strict=True)}
+
+
+def _taken(adjoint: Adjoint, made: Prepared) -> Result:
+    """What the steps of an adjoint record on its way forwards."""
+    store = MemoryStore(made.system)
+    adjoint.forwards(store)
+    store.update(made.run.stats, "complete")
+    return Result(store, made.header, made.system)
 
 
 class _Asking:
@@ -216,8 +228,8 @@ class _Asking:
 
     def of_rest(self) -> FloatArray:
         """What parameters do to the height at rest, from which an uplift is measured."""
-        wanted, alone = self.begun.wanted, self.begun.alone
-        if self.lifted is None or alone is None:
+        wanted = self.begun.wanted
+        if self.lifted is None or (alone := self.begun.alone) is None:
             return np.zeros(len(wanted))
         point = self.points[SUPPORT]
         return np.array([-MM * float(alone.sensitivity(one.name).position(point)[2]) for one in wanted])

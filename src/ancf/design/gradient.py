@@ -228,7 +228,8 @@ def _backward(
     def asked(face: Face, pairs: Iterable[Key]) -> dict[Key, FloatArray]:
         return {pair: np.asarray(ask(face, *pair)) for pair in pairs}
 
-    run = way(made, parameters, start, asked, unknowns, "gradient")
+    run = way(made, parameters, start, "gradient")
+    run.ask(asked, unknowns)
     t, found = run.forwards()
     value, slopes = gradient_of(formula, Histories(t, found))
     total = run.backwards({pair: slopes[pair] for pair in pairs})

@@ -25,7 +25,7 @@ from ..solvers.status import OK
 from ..system.core import follow_supports
 from ..system.system import System
 from .base import check_differentiable, matrices_of
-from .blocks import Block, Collector
+from .blocks import BLOCK, LARGEST, Block, Collector, Keeping
 from .family import Family
 from .follow import Trail, check_method, given_start, when_cut
 from .jumps import end_at_jumps
@@ -36,10 +36,6 @@ from .parameters import Parameter
 from .remembering import friction_of
 from .start import Start
 from .weighed import Weighed
-
-#: Bytes of states up to which all are kept and no step is taken again, and those of a block; of one that
-#: begins with a snapshot, which is as large as some of its steps.
-KEPT, BLOCK, LARGEST = 320e6, 8e6, 128e6
 
 
 class UnsolvedError(SolveError):
@@ -58,21 +54,11 @@ class Adjoint:
         At its start, every step stored.
     parameters : list of Parameter
     start : State or None
-    asked : function
-        How histories are found, see ``Asked``.
-    unknowns : mapping
-        By the questions on which the number depends the entries of the state vectors on which these do.
     """
 
-    def __init__(
-        self,
-        made: Prepared,
-        parameters: list[Parameter],
-        start: State | None,
-        asked: Asked,
-        unknowns: Mapping[Key, IntArray],
-        where: str,
-    ) -> None:
+    objective: Objective | None = None
+
+    def __init__(self, made: Prepared, parameters: list[Parameter], start: State | None, where: str) -> None:
         self._check(made, start, where)
         self.run: Any = made.run
         self.system = System(made.system.model, like=made.system)
@@ -87,8 +73,6 @@ class Adjoint:
         self._check_memory(start)
         self.ahead = ahead_of(self.system.core, self.m)
         self.given = given_start(self.families, self.run.t_start, self.system, start, where)
-        self.objective = Objective(self.system, self.families, asked, unknowns)
-        self.unknowns = self.objective.unknowns
         self._shifts: FloatArray | None = None  # factors of C of joints at the steps of a block, (n, size)
         self.blocks: list[Block] = []
         end_at_jumps(self.run, UnsolvedError)  # over these sensitivities go forwards
@@ -116,35 +100,55 @@ class Adjoint:
     def _prepare(self) -> None:
         """What else a kind of adjoint has."""
 
-    def forwards(self) -> tuple[FloatArray, dict[Any, FloatArray]]:
-        """Take all steps; times and histories of what is asked."""
-        run, store, size = self.run, Collector(), self.system.size
+    def ask(self, asked: Asked, unknowns: Mapping[Key, IntArray]) -> None:
+        """Say of what the number is made, before it is gone through backwards.
+
+        Parameters
+        ----------
+        asked : function
+            How histories are found, see ``Asked``.
+        unknowns : mapping
+            By the questions on which the number depends the entries of the state vectors on which these do.
+        """
+        self.objective = Objective(self.system, self.families, asked, unknowns)
+        self.unknowns = self.objective.unknowns
+
+    def forwards(self, others: Any = None) -> tuple[FloatArray, dict[Any, FloatArray]]:
+        """Take all steps; times and histories of what is asked by now.
+
+        ``others``: a recorder that takes samples of sensors, the first state and the last one.
+        """
+        run, store = self.run, Collector(others)
         run.begin(store)
         t, q, v = store.taken()
         self.first = q[0].copy(), v[0].copy(), run.memory.a.copy()
         self.begun = self.memory.keep(run) if self.memory else {}
-        times, found = [t], [self.objective.histories(q, v)]
-        keep = 24.0 * size * run.steps <= KEPT
-        most = self._most(keep)
+        times, found = [t], [self._histories(q, v)]
+        keeping = Keeping(self.system, run.steps, bool(self.memory))
+        most = self._most(keeping)
         while run.done < run.steps:
             h = run.h if run.done < run.full else run.rest
-            block = Block(run.done, self._count(most), h, None if keep else run.snapshot())
+            block = Block(run.done, self._count(most), h, None if keeping.some else run.snapshot())
             block.memory = self.memory.keep(run) if self.memory else {}
-            trail = Trail(run)
+            trail, before = Trail(run), run.memory.q.copy()
             self._take(block.count, store)
             t, q, v = store.taken()
-            if keep:
-                block.kept = q, v, trail, run.memory.a.copy()
+            if keeping.some:
+                block.kept = keeping.keep(before, q, v, trail, run.memory.a.copy())
             times.append(t)
-            found.append(self.objective.histories(q, v))
+            found.append(self._histories(q, v))
             self.blocks.append(block)
+        store.end()
         self.t = np.concatenate(times)
         return self.t, {key: np.concatenate([one[key] for one in found]) for key in found[0]}
 
-    def _most(self, keep: bool) -> int:
+    def _histories(self, q: FloatArray, v: FloatArray) -> dict[Key, FloatArray]:
+        return self.objective.histories(q, v) if self.objective is not None else {}
+
+    def _most(self, keeping: Keeping) -> int:
         """Steps of a block at most; with snapshots as many as there are blocks, as far as they have room."""
         each, steps = 8 * self.system.size * (6 * len(self.nearby.others) + 12), int(self.run.steps)
-        most = BLOCK / each if keep else min(LARGEST / each, max(16, np.sqrt(steps)))
+        most = BLOCK / each if keeping.all else min(LARGEST / each, max(16, np.sqrt(steps)))
         return max(1, min(int(most), steps))
 
     def _count(self, most: int) -> int:
@@ -157,6 +161,7 @@ class Adjoint:
     def backwards(self, slopes: dict[Any, FloatArray]) -> FloatArray:
         """Derivatives of the number by the parameters, (p,), from those by the histories."""
         run, system = self.run, self.system
+        assert self.objective is not None
         total, mu = np.zeros(len(self.families)), np.zeros((4, system.size))
         still = np.zeros(system.size)  # by derivatives of q that are the same at all times
         room, self._room_a = np.zeros((2, max(block.count for block in self.blocks), system.size))
@@ -225,6 +230,7 @@ class Adjoint:
         """What parameters do to the start; ``still`` is added to."""
         run, system = self.run, self.system
         first = self.first
+        assert self.objective is not None
         wanted = self.objective.wanted(first[0][None].copy(), first[1][None].copy(), slopes)
         when = (run.t_start - run.h, run.h, run.t_start, run.t_end)
         if self.memory:
@@ -283,7 +289,7 @@ class Adjoint:
             _, q, v = store.taken()
             end = run.memory.a
         else:
-            q, v, trail, end = block.kept
+            q, v, trail, end = block.kept.states(block.h, self.run.scheme)
         accelerations(v, block.h, self.run.scheme, trail.before, a)
         a[-1] = end
         return Way(q, v, a)

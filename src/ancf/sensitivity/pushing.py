@@ -12,7 +12,7 @@ from ..errors import ModelError
 from ..solvers.radau.stages import place_rows, stage_residuals
 from ..system.beside import Acts
 from ..system.core import Core, apply_load, apply_supports, place_supports, residual
-from .offsets import FOUR, KINKED, STEEP, STEP
+from .offsets import FOUR, KINKED, PAIR, STEEP, STEP
 from .parameters import Parameter
 from .values import Push, gaps_of
 
@@ -48,7 +48,7 @@ class Pushing:
         h = STEP * self._unit * (STEEP if acts is not None and self._is_steep(acts) else 1.0)
         if self.parameter.linear or self.linear or max(map(abs, self.offsets)) >= h:
             return self.systems, self.weights
-        places, weights = FOUR
+        places, weights = PAIR if self.parameter.quadratic else FOUR
         try:
             systems = [self._compiled(h * x) for x in places]
         except ModelError:  # so far from its value there is no such model

@@ -23,7 +23,7 @@ from ...system.core import drive, onto_shadows, solve_matrix, to_local
 from ..rare import add_all_slopes, add_rate_works, add_tangent_works
 from ..status import OK, SINGULAR, SLOW
 from ..step.scheme import coefficients
-from .adjoint import SURE, add_turns, folded, hold, take_wanted, to_start
+from .adjoint import add_turns, folded, hold, take_wanted, to_start
 from .ahead import look_ahead, look_at, looks_ahead
 from .friction import bring
 from .friction_back import is_there, through_force, through_memory
@@ -34,6 +34,8 @@ from .strips import give_way, meet
 KEPT, OF_EACH = 10, 6
 #: Corrections after which those that do not shrink may be round-off.
 MANY = 5
+#: As ``SURE``.
+SURELY = 1e-13
 #: Part of lambda that a plain correction may be, and part of the one before it; steps without such
 #: corrections after one that was more.
 MILD, MILDER, PAUSE = 1e-2, 5e-2, 64
@@ -191,7 +193,7 @@ def may_end(norm, size, before, round):
     Those of a few rows shrink when there have been as many, and not before.
     """
     rate = min(norm / before, 1.0) if round > 0 else 1.0  # nothing is known of a contact that has begun
-    if rate * norm <= SURE * size or norm < LEAST:
+    if rate * norm <= SURELY * size or norm < LEAST:
         return True
     return round >= MANY and norm <= NOISY * size and norm >= 0.5 * before
 
