@@ -26,6 +26,8 @@ from .values import Push
 #: Residual of the equations, relative to their right-hand side, that is aimed at and that is accepted; part
 #: of the solution by which what is left may change it: on stiff grounds that is round-off of places.
 AIMED, ACCEPTED, CHANGED = 1e-13, 1e-8, 1e-7
+#: Part of what is left of a right-hand side that a correction may leave if another one is to follow.
+HELPS = 0.1
 #: Directions of a search before it begins again, and how often it does.
 DIRECTIONS, AGAIN = 60, 5
 
@@ -165,19 +167,34 @@ def _solver(system: System, core: Core, q: FloatArray, friction: Leaning | None)
         if size == 0.0:
             return s
         b /= size  # products by differences take what is next to nothing for nothing
-        x = lu.solve(b)
-        if len(m.rough) or len(m.joined) or friction is not None:
+        x, left = _refined(lu.solve, times, b)
+        exact = not (len(m.rough) or len(m.joined) or friction is not None)
+        if not exact and float(np.linalg.norm(left)) > AIMED:
             before = LinearOperator((n, n), matvec=lu.solve, dtype=np.float64)
             whole = LinearOperator((n, n), matvec=times, dtype=np.float64)
             x, _ = gmres(whole, b, x0=x, M=before, rtol=AIMED, restart=DIRECTIONS, maxiter=AGAIN)
-        else:
-            x += lu.solve(b - times(x))
-        if not _is_solution(times(x) - b, lu.solve, x):
+            left = b - times(x)
+        if not _is_solution(left, lu.solve, x):
             raise _neutral(name)
         s[:n] = size * x
         return s
 
     return solve, stiff
+
+
+def _refined(
+    solve: Callable[[FloatArray], FloatArray], times: Callable[[FloatArray], FloatArray], b: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """A solution of the equations, corrected while that helps, and what is left of b, of size 1."""
+    x = solve(b)
+    left = b - times(x)
+    while float(np.linalg.norm(left)) > AIMED:
+        better = x + solve(left)
+        rest = b - times(better)
+        if not float(np.linalg.norm(rest)) < HELPS * float(np.linalg.norm(left)):
+            break
+        x, left = better, rest
+    return x, left
 
 
 def _is_solution(left: FloatArray, solve: Callable[[FloatArray], FloatArray], x: FloatArray) -> bool:

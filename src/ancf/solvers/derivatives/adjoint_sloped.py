@@ -34,8 +34,8 @@ from .strips import give_way, meet
 KEPT, OF_EACH = 10, 6
 #: Corrections after which those that do not shrink may be round-off.
 MANY = 5
-#: As ``SURE``.
-SURELY = 1e-13
+#: Part of lambda below which corrections end when the next one would be smaller, by the last two of them.
+SURE = 1e-12
 #: Part of lambda that a plain correction may be, and part of the one before it; steps without such
 #: corrections after one that was more.
 MILD, MILDER, PAUSE = 1e-2, 5e-2, 64
@@ -193,7 +193,7 @@ def may_end(norm, size, before, round):
     Those of a few rows shrink when there have been as many, and not before.
     """
     rate = min(norm / before, 1.0) if round > 0 else 1.0  # nothing is known of a contact that has begun
-    if rate * norm <= SURELY * size or norm < LEAST:
+    if rate * norm <= SURE * size or norm < LEAST:
         return True
     return round >= MANY and norm <= NOISY * size and norm >= 0.5 * before
 
