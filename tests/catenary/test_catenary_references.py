@@ -159,6 +159,12 @@ class TestQuantity:
     def test_inside(self, value, low, high, inside):
         assert Quantity("x", "x", "N", value, low, high).inside is inside
 
+    @pytest.mark.parametrize("kind", [float, np.float64, np.float32])
+    @pytest.mark.parametrize(("value", "told"), [(2.0, True), (4.0, False), (-4.0, False)])
+    def test_inside_of_any_kind_of_number(self, kind, value, told):
+        """Who asks "is False" hears it of numpy's numbers too."""
+        assert Quantity("x", "x", "N", kind(value), -3.0, kind(3.0)).inside is told
+
     def test_texts(self):
         assert shown(-3.14159, "N") == "\N{MINUS SIGN}3.1"
         assert shown(-0.01, "N") == "0.0"

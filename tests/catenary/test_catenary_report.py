@@ -15,15 +15,27 @@ from typer.testing import CliRunner
 
 import catenary_stand_in as stand_in
 from ancf import ModelError
-from ancf.catenary import Elasticity, MeasuringHead, measure, validate
+from ancf.catenary import (
+    Auxiliary,
+    DropperRule,
+    Droppers,
+    Elasticity,
+    MeasuringHead,
+    StitchWire,
+    Wire,
+    measure,
+    validate,
+)
 from ancf.catenary.answers.quantity import shown
 from ancf.catenary.answers.references import reference_case
 from ancf.catenary.answers.statistics import statistics
 from ancf.catenary.report import Content, write_report
 from ancf.catenary.report.figures import FIGURES, figure_names, picture
+from ancf.catenary.report.tables import line_data, pantograph_data
 from ancf.cli.app import app
 from ancf.viz import style
 from commands import python
+from overhead_lines import collector, short_line
 
 ROW = ["quantity", "unit", "value", "low", "high", "inside", "tag"]
 NAMES = (
@@ -345,3 +357,39 @@ class TestShape:
         assert sag.lines[1].get_ydata() == pytest.approx(-20.0)
         assert [plan.lines[k].get_ydata().mean() for k in (0, 2)] == pytest.approx([0.0, 200.0])
         assert plan.lines[2].get_xdata()[0] == 540.0
+
+
+WIRE = Wire(EA=3e6, EI=10.0, mass=0.3125, tension=3e3)
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"stitch": StitchWire(wire=WIRE, reach=7.25)}, ("stitch wires", "0.3125 kg/m", "7.25 m")),
+        (
+            {
+                "auxiliary": Auxiliary(
+                    wire=WIRE,
+                    height=0.375,
+                    droppers=Droppers(EA=2e5),
+                    places=DropperRule(first=5.0, pitch_max=10.0),
+                )
+            },
+            ("auxiliary", "0.3125 kg/m", "0.375 m"),
+        ),
+        ({"contact_spacing": 0.0625}, ("two contact wires", "0.0625")),
+    ],
+)
+def test_line_is_told_with_all_its_wires(changes, said):
+    texts = []
+    for line in (short_line(**changes), short_line()):
+        made = SimpleNamespace(line=line, pull=np.full((4, 2), 1e4))
+        texts.append("".join(line_data(SimpleNamespace(run=SimpleNamespace(form=made))).itertext()))
+    assert all(text in texts[0] for text in said)
+    assert said[0] not in texts[1]
+
+
+@pytest.mark.parametrize("relaxed", ["start", "nominal", "mean"])
+def test_pantograph_is_told_with_where_its_spring_is_relaxed(relaxed):
+    content = SimpleNamespace(run=SimpleNamespace(pantographs=[collector(relaxed_at=relaxed)]))
+    assert f"relaxed at{relaxed}" in "".join(pantograph_data(content, 0).itertext())

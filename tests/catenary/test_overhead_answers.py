@@ -228,6 +228,17 @@ class TestAcceptance:
         wanted = "outside: mean force Fm (70.0 < 78.8 N), standard deviation (34.2 > 32.3 N)"
         assert verdict(rows) == f"{wanted}, speed / wave speed (0.900 > 0.700)"
 
+    def test_verdict_names_each_row_that_misses(self, run):
+        """Strains too, whose numbers are numpy's."""
+        for row in acceptance(run):
+            name = row.name.partition(",")[0]
+            assert verdict([dataclasses.replace(row, high=0.99 * row.value - 0.1)]).startswith(
+                f"outside: {name}"
+            )
+            assert verdict([dataclasses.replace(row, low=1.01 * row.value + 0.1)]).startswith(
+                f"outside: {name}"
+            )
+
     @pytest.mark.parametrize("mean", [80.03, 99.98, 114.16, 120.0, 131.149])
     @pytest.mark.parametrize("share", [0.2985, 0.29985, 0.29999, 0.3001, 0.302])
     def test_deviation_is_judged_once(self, run, mean, share):

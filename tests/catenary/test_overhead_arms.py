@@ -11,6 +11,7 @@ import ancf
 from ancf import ModelError
 from ancf.catenary import Conditions, Mesh, Span, SteadyArm, arm_loads, assemble, form, read_line, verify
 from ancf.catenary.forms.form import check
+from helpers import some
 from overhead_lines import COARSE, LENGTHS, STAGGER, TOML, droppers, short_line
 
 G = 9.81
@@ -50,6 +51,27 @@ class TestLoads:
             assert one.sideways == pytest.approx(wanted, rel=1e-3, abs=0.5)
             assert (one.side, one.acts) == ("left" if wanted > 0.0 else "right", "pulls")
         assert [told[k].side for k in (0, -1)] == ["", ""]
+
+    @pytest.mark.parametrize(
+        ("anchors", "conditions"),
+        some(
+            [
+                ("fixed", {"temperature": 45.0}),
+                ("tension", {"contact_tension": 14e3}),
+                ("fixed", {"temperature": -25.0}),
+                ("fixed", {"wear": 0.3}),
+            ]
+        ),
+    )
+    @pytest.mark.parametrize("stagger", [STAGGER, (0.1,) * 6])
+    def test_closed_form_of_a_state(self, anchors, conditions, stagger):
+        """By the tension that the wire has there, not by that of the design."""
+        arm = SteadyArm(vertical=200.0)
+        line = bent(-900.0, stagger=stagger, anchors=anchors, contact_support="held", steady_arm=arm)
+        found = form(replace(line, conditions=Conditions(**conditions)), COARSE)
+        assert abs(found.pull[0].mean() / 20e3 - 1.0) > 0.15
+        for one in arm_loads(found)[1:-1]:
+            assert one.sideways == pytest.approx(one.curve + one.stagger, rel=0.015, abs=4.0)
 
 
 #: Signs of what the arms of STAGGER have to pull at on straight track.

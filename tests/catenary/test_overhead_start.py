@@ -4,8 +4,8 @@ import warnings
 
 import pytest
 
-from ancf import Model, ModelError
-from ancf.catenary import form, run
+from ancf import Model, ModelError, equilibrium
+from ancf.catenary import assemble, form, run
 from ancf.catenary.cautions import before
 from ancf.catenary.chain import add_chain, add_stages
 from ancf.catenary.collectors import Touch
@@ -104,3 +104,22 @@ def test_a_spring_longer_than_the_masses_are_apart(above):
     with pytest.raises(ModelError, match="longer at the start than without force") as caught:
         add_stages(model, chain, above, None, "pantograph")
     assert caught.value.where == "run.pantograph"
+
+
+WAVES = [(0.0, 0.002), (10.0, 0.004), (60.0, -0.003)]
+
+
+@pytest.mark.parametrize("strips", [0.0, 0.4])
+@pytest.mark.parametrize("wires", [{}, {"contact_spacing": 0.04}])
+@pytest.mark.parametrize("underside", [None, WAVES])
+@pytest.mark.parametrize("stiffness", [20e3, 50e3])
+def test_the_lowest_spring_is_relaxed_where_the_pantograph_stands(strips, wires, underside, stiffness):
+    """It then takes nothing of the force, however many contacts share that and whatever is worn off."""
+    unit = collector(strip_distance=strips, stiffness=(4e3, 4200.0), aerodynamic=(0.01, 0.005))
+    overhead = assemble(form(short_line(**wires), COARSE))
+    given = {"underside": underside, "contact_stiffness": stiffness}
+    made = overhead.add_pantograph(unit, 40.0, start=18.0, **given)
+    state = equilibrium(overhead.model)
+    force = sum(float(state.contact_force(touch)) for touch in made.touches)
+    assert len(made.touches) == (2 if strips else 1) * (2 if wires else 1)
+    assert force == pytest.approx(unit.force(40.0), abs=0.05)

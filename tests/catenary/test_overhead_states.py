@@ -340,6 +340,18 @@ class TestWrong:
                 lambda: short_line(conditions=Conditions(contact_tension=0.0)),
                 "line.conditions.contact_tension",
             ),
+            (
+                lambda: short_line(conditions=Conditions(contact_tension=19e3)),
+                "line.conditions.contact_tension",
+            ),
+            (
+                lambda: short_line(conditions=Conditions(messenger_tension=15e3)),
+                "line.conditions.messenger_tension",
+            ),
+            (
+                lambda: tram(conditions=Conditions(messenger_tension=15e3)),
+                "line.conditions.messenger_tension",
+            ),
             (lambda: short_line(anchors="spring"), "line.tensioner.stiffness"),
             (lambda: short_line(tensioner=Tensioner(stiffness=1e3)), "line.tensioner.stiffness"),
             (lambda: short_line(tensioner=Tensioner(friction=0.1)), "line.tensioner.friction"),

@@ -122,7 +122,7 @@ def elasticity(
     line = track_of(line)
     if isinstance(line, Route):
         longest = int(np.argmax([len(part.spans) for part in line.parts]))
-        part = shape.forms[longest] if isinstance(shape, RouteForm) else line.parts[longest]
+        part = shape.forms[longest] if isinstance(shape, RouteForm) else _section(line, longest)
         found = elasticity(part, forces, points, span, beside, mesh)
         before = sum(len(part.spans) + 1 for part in line.parts[:longest])
         return replace(found, span=found.span + before)  # its first support among those of all sections
@@ -141,6 +141,14 @@ def elasticity(
     start = float(overhead.form.line.supports[middle - first])
     lift = _lifts(overhead, start + places, force)
     return Elasticity(middle, places, force, lift, overhead.form)
+
+
+def _section(route: Route, k: int) -> Line:
+    """A tension length as a line, whose droppers are off as they are in the route."""
+    line = route.lines[k]
+    if line.dropper_errors is None:
+        return line
+    return replace(line, dropper_errors=replace(line.dropper_errors, section=k))
 
 
 def _check_whole(beside: int | None, mesh: Mesh | None) -> None:

@@ -19,7 +19,7 @@ from .collectors import Collector, put_pantograph
 from .derivatives import parameters
 from .plan import Plan
 from .sleeping import Sleep
-from .travelling import level_of, lifted_heights
+from .travelling import level_of, strip_heights
 from .underside import profiles
 
 STEP = 1e-3
@@ -133,7 +133,7 @@ def _collectors(overhead: Assembled, plan: Plan, active: bool) -> list[Collector
                 plan.travel,
                 label="pantograph" if count == 1 else f"pantograph {k + 1}",
                 start=place,
-                height=heights[k] + plan.touch.overlap(plan.lift(k)),
+                height=heights[k],
                 raised=plan.raised[k],
                 touch=plan.touch,
                 active=active,
@@ -146,8 +146,9 @@ def _collectors(overhead: Assembled, plan: Plan, active: bool) -> list[Collector
 
 
 def _lifted(overhead: Assembled, plan: Plan) -> list[float]:
-    """Heights of the wire at the pantographs' places when it is lifted by their forces."""
-    return lifted_heights(overhead, plan.places, [plan.lift(k) for k in range(len(plan.places))])
+    """Heights of the strips where the pantographs stand, on a line that is lifted by their forces."""
+    lifts = [plan.lift(k) for k in range(len(plan.places))]
+    return strip_heights(overhead, plan.pantographs, plan.places, lifts, plan.touch, plan.underside)
 
 
 def _rest(plan: Plan) -> Rest:

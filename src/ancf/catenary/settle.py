@@ -128,14 +128,14 @@ def _wires(line: Line, air: Conditions, heat: float) -> list[_Wires]:
         left = 1.0 - air.wear if k == 0 else 1.0
         longer = 1.0 + wire.expansion * heat
         mass = wire.mass * (1.0 + wire.tension / wire.EA) / longer
-        ice = air.ice * (1.0 + wire.tension / wire.EA)
+        ice = wire.count * air.ice * (1.0 + wire.tension / wire.EA)
         made.append(_Wires(left * mass + ice, left * wire.EA, left**2 * wire.EI))
     return made
 
 
 def _stitch(line: Line, shape: WireShape, air: Conditions, heat: float) -> WireShape:
     wire = shape.wire
-    mass = wire.mass * (1.0 + wire.tension / wire.EA) / (1.0 + wire.expansion * heat) + air.ice
+    mass = wire.mass * (1.0 + wire.tension / wire.EA) / (1.0 + wire.expansion * heat) + wire.count * air.ice
     return _Wires(mass, wire.EA, wire.EI).under(_stretched(shape, heat), wire.tension)
 
 

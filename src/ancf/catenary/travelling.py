@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 import ancf
 
+from ..arrays import FloatArray
 from ..model import checks
 from .assemble import MADE, Assembled
 from .chain import Level
@@ -78,8 +82,9 @@ def add_pantograph(
     checks.number(raised, "add_pantograph.raised")
     checks.flag(active, "add_pantograph.active")
     lift = float(unit.force(travel.speed(0.0)))
+    rows = checked_underside(underside)
     if height is None:
-        height = lifted_heights(overhead, [place], [lift])[0] + touch.overlap(lift)
+        height = strip_heights(overhead, [unit], [place], [lift], touch, rows)[0]
     checks.number(height, "add_pantograph.height")
     return put_pantograph(
         overhead.model,
@@ -94,7 +99,7 @@ def add_pantograph(
         active=active,
         level=level_of(overhead.form.line),
         roof=roofs(roof, 1)[0],
-        profiles=profiles(overhead, checked_underside(underside)),
+        profiles=profiles(overhead, rows),
     )
 
 
@@ -103,17 +108,38 @@ def level_of(line: Line | Route) -> Level | None:
     return line.height_at if any(line.heights) else None
 
 
-def lifted_heights(overhead: Assembled, places: list[float], lifts: list[float]) -> list[float]:
-    """Heights in m of the contact wire at track positions when forces in N lift it there.
+def strip_heights(
+    overhead: Assembled,
+    units: Sequence[Pantograph],
+    places: Sequence[float],
+    lifts: Sequence[float],
+    touch: Touch,
+    underside: FloatArray | None = None,
+) -> list[float]:
+    """Heights in m of strips at track positions that lift the wires there with forces in N, at rest.
 
-    The model is as before afterwards.
+    Of two strips, and of twin wires, each takes its share. The model is as before afterwards.
     """
-    model, points = overhead.model, [overhead.contact_at(place) for place in places]
-    forces = []
-    for place, lift in zip(places, lifts, strict=True):
-        under = overhead.contacts_at(place)
-        forces += [model.add_force(point, (0.0, 0.0, lift / len(under))) for point in under]
+    model = overhead.model
+    strips = [_strips(unit, place) for unit, place in zip(units, places, strict=True)]
+    under = [[point for x in one for point in overhead.contacts_at(x)] for one in strips]
+    forces = [
+        model.add_force(point, (0.0, 0.0, lift / len(points)))
+        for points, lift in zip(under, lifts, strict=True)
+        for point in points
+    ]
     state = ancf.equilibrium(model)
     for force in forces:
         model.loads.remove(force)
-    return [float(state.position(point)[2]) for point in points]
+    heights = []
+    for points, one, lift in zip(under, strips, lifts, strict=True):
+        height = np.mean([state.position(point)[2] for point in points])
+        worn = 0.0 if underside is None else np.mean(np.interp(one, underside[:, 0], underside[:, 1]))
+        heights.append(float(height + worn) + touch.overlap(lift / len(points)))
+    return heights
+
+
+def _strips(unit: Pantograph, place: float) -> list[float]:
+    """Track positions of the strips of a pantograph, m."""
+    half = 0.5 * unit.strip_distance
+    return [place + half, place - half] if half else [place]

@@ -48,7 +48,7 @@ class Quantity:
         if self.low is None and self.high is None:
             return None
         above = self.low is None or self.value >= self.low
-        return above and (self.high is None or self.value <= self.high)
+        return bool(above and (self.high is None or self.value <= self.high))  # of numpy's numbers too
 
     @property
     def row(self) -> dict[str, Any]:

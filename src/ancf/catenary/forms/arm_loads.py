@@ -31,7 +31,7 @@ class ArmLoad:
         Track position.
     curve, stagger : float, N
         What the closed form says that the arm has to pull to the left, against the wire in a curve,
-        ``-T/R`` over half of both spans, and at the kink of the staggers.
+        ``-T/R`` over half of both spans, and at the kink of the staggers. T is the tension in this state.
     sideways, upwards : float, N
         What it does pull to the left, and carry.
     side : str
@@ -68,7 +68,7 @@ def arm_loads(found: Any) -> list[ArmLoad]:
     made: list[ArmLoad] = []
     for form in found.shifted:
         line, x = form.line, form.contact.position[form.contact.nodes.support, 0]
-        curve, kink = radial(line)
+        curve, kink = radial(line, form.contact.wire.tension)
         for k, force in enumerate(form.arm_force):
             end = k in (0, len(form.arm_force) - 1)
             side, sideways = "" if end else form.arm(k).stands(float(force[1])), float(force[1])
@@ -105,9 +105,13 @@ def write(loads: list[ArmLoad], path: Path) -> Path:
     return path
 
 
-def radial(line: Any) -> tuple[FloatArray, FloatArray]:
-    """Forces (supports,) to the left that the arms need for curves, and for staggers, N; none at the ends."""
-    tension, length = line.contact_wire.tension, np.array([span.length for span in line.spans])
+def radial(line: Any, tension: float | None = None) -> tuple[FloatArray, FloatArray]:
+    """Forces (supports,) to the left that the arms need for curves, and for staggers, N; none at the ends.
+
+    Under the tension of the contact wire in a state, N, by default that of the design.
+    """
+    tension = line.contact_wire.tension if tension is None else tension
+    length = np.array([span.length for span in line.spans])
     bend = length * np.array([span.curvature for span in line.spans])
     slope = np.diff(line.stagger) / length
     curve, kink = np.zeros(length.size + 1), np.zeros(length.size + 1)

@@ -58,8 +58,10 @@ def with_errors(found: Form, errors: DropperErrors, section: int = 0) -> FloatAr
     """
     given = found.line.dropper_lengths
     plain = found.cut_length if given is None else np.array(given)
+    section = errors.section or section
     random = np.random.default_rng(errors.seed if section == 0 else [errors.seed, section])
-    lengths: FloatArray = plain + errors.deviation * random.standard_normal(plain.size)
+    off = random.standard_normal(errors.before + plain.size)[errors.before :]
+    lengths: FloatArray = plain + errors.deviation * off
     if np.any(lengths <= 0.0):
         worst = int(np.argmin(lengths))
         what = f"is {errors.deviation:g} m, which leaves nothing of {found.line.dropper_label(worst)}"

@@ -23,9 +23,9 @@ class Conditions:
     temperature : float, degrees Celsius
         Default that for which the heights of the line hold, ``Line.temperature``.
     contact_tension, messenger_tension : float, N
-        Of weights or springs that pull with another force than in the design.
+        Of weights or springs that pull with another force than in the design; not between fixed ends.
     ice : float, kg/m
-        On each of the wires.
+        On each of the wires, also on each of several that act as one.
     wind : float, m/s
         Steady, across the track, positive to the left, where y points. The wires need a ``diameter``.
     air_density : float, kg/m^3
@@ -52,15 +52,12 @@ class Conditions:
     seed: int = 1
     wear: float = 0.0
 
-    def check(self, where: str, contact: Wire, messenger: Wire | None) -> None:
-        """Raise ModelError if a value is out of range, or a tension carries no such wire."""
+    def check(self, where: str, contact: Wire, messenger: Wire | None, anchors: str) -> None:
+        """Raise ModelError if a value is out of range, has no effect, or a tension carries no such wire."""
         if self.temperature is not None:
             checks.between(self.temperature, f"{where}.temperature", COLDEST, HOTTEST)
         for key, wire in (("contact_tension", contact), ("messenger_tension", messenger)):
-            if (tension := getattr(self, key)) is not None:
-                checks.positive(tension, f"{where}.{key}")
-                if wire is not None:
-                    wire.check_tension(tension, f"{where}.{key}")
+            self._check_tension(key, f"{where}.{key}", wire, anchors)
         if checks.non_negative(self.ice, f"{where}.ice") > 20.0:
             raise ModelError(f"{where}.ice", f"is {self.ice:g} kg/m", "units are kg/m, not N/m")
         checks.between(self.wind, f"{where}.wind", -80.0, 80.0)
@@ -74,6 +71,17 @@ class Conditions:
             hint = "a share of the section: 0.2 for 20 %"
             raise ModelError(f"{where}.wear", f"must be between 0 and 0.6, is {self.wear:g}", hint)
 
+    def _check_tension(self, key: str, where: str, wire: Wire | None, anchors: str) -> None:
+        if (tension := getattr(self, key)) is None:
+            return
+        checks.positive(tension, where)
+        if wire is None:
+            raise ModelError(where, "has no effect on a line without messenger", "leave it out")
+        wire.check_tension(tension, where)
+        if anchors == "fixed":
+            what = 'has no effect with anchors = "fixed", between which the tension follows from the state'
+            raise ModelError(where, what, 'leave it out, or anchors = "tension" or "spring"')
+
     def worn(self, wire: Wire) -> Wire:
         """The contact wire with its wear, its ice and the tension of weights, as it hangs at any temperature.
 
@@ -81,7 +89,9 @@ class Conditions:
         """
         left, tension = 1.0 - self.wear, self.contact_tension or wire.tension
         EA = left * wire.EA
-        mass = (left * wire.mass + self.ice) * (1.0 + wire.tension / wire.EA) / (1.0 + tension / EA)
+        mass = (
+            (left * wire.mass + wire.count * self.ice) * (1.0 + wire.tension / wire.EA) / (1.0 + tension / EA)
+        )
         return replace(wire, EA=EA, EI=left**2 * wire.EI, mass=mass, tension=tension)
 
 

@@ -204,8 +204,12 @@ class ConditionsEntry(Entry):
     """State in which the line is looked at."""
 
     temperature: float | None = Field(None, description="Temperature [degrees Celsius].")
-    contact_tension: Positive | None = Field(None, description="Other tension of the contact wire [N].")
-    messenger_tension: Positive | None = Field(None, description="Other tension of the messenger [N].")
+    contact_tension: Positive | None = Field(
+        None, description="Other tension of the contact wire, of each [N]."
+    )
+    messenger_tension: Positive | None = Field(
+        None, description="Other tension of the messenger, of each [N]."
+    )
     ice: NonNegative = Field(0.0, description="On each of the wires [kg/m].")
     wind: float = Field(0.0, description="Steady, across the track, to the left [m/s].")
     air_density: Positive = Field(1.225, description="Density of the air [kg/m^3].")

@@ -14,6 +14,9 @@ from ...model import checks
 def excerpt(line: Any, first: int, count: int) -> Any:
     """Of a Line the `count` spans from span `first` on, anchored at their own ends.
 
+    Droppers are off as they are in the line. Springs that pull the ends are stiffer by as much as it is
+    shorter, so that heat changes the tension alike.
+
     Raises
     ------
     ModelError
@@ -36,7 +39,13 @@ def excerpt(line: Any, first: int, count: int) -> Any:
     if line.dropper_lengths is not None:
         own = (line.dropper_span >= first) & (line.dropper_span < first + count)
         cut["dropper_lengths"] = tuple(np.array(line.dropper_lengths)[own].tolist())
+    if line.dropper_errors is not None:
+        before = line.dropper_errors.before + int(np.sum(line.dropper_span < first))
+        cut["dropper_errors"] = replace(line.dropper_errors, before=before)
     start, end = line.supports[first], line.supports[first + count]
+    if line.tensioner.stiffness is not None:
+        stiffness = line.tensioner.stiffness * line.length / float(end - start)
+        cut["tensioner"] = replace(line.tensioner, stiffness=stiffness)
     inside = [load for load in line.loads if start < load.position < end]
     cut["loads"] = tuple(replace(load, position=load.position - float(start)) for load in inside)
     return replace(line, spans=line.spans[first : first + count], **cut)

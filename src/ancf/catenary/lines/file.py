@@ -200,7 +200,7 @@ def _line(entry: LineEntry, plain: dict[str, Any]) -> Line:
         stitch=_stitch(entry.stitch),
         auxiliary=_auxiliary(entry),
         tensioner=Tensioner() if tensioner is None else Tensioner(**tensioner.given()),
-        conditions=Conditions() if conditions is None else Conditions(**conditions.given()),
+        conditions=Conditions() if conditions is None else Conditions(**_of_all(entry, conditions.given())),
         dropper_errors=None
         if entry.dropper_errors is None
         else DropperErrors(**entry.dropper_errors.given()),
@@ -252,6 +252,16 @@ def _auxiliary(entry: LineEntry) -> Auxiliary | None:
     places = None if given.places is None else DropperRule(**given.places.given())
     wire = _wire(given, "auxiliary_wire")
     return Auxiliary(wire=wire, height=given.height, droppers=Droppers(**droppers.given()), places=places)
+
+
+def _of_all(entry: LineEntry, conditions: dict[str, Any]) -> dict[str, Any]:
+    """Conditions with the tensions of all wires that act as one: as in the design a file has that of each."""
+    spaced = own_spacing(entry.contact_wire) is not None
+    counts = {
+        "contact_tension": 1 if spaced else entry.contact_wire.count,
+        "messenger_tension": 1 if entry.messenger_wire is None else entry.messenger_wire.count,
+    }
+    return {key: counts.get(key, 1) * value for key, value in conditions.items()}
 
 
 def _wire(given: WireEntry | ContactWireEntry, where: str) -> Wire:

@@ -59,16 +59,23 @@ class DropperErrors:
         Standard deviation of each length.
     seed : int
         The same gives the same errors. Tension lengths of a route differ.
+    before, section : int
+        Of a part of a line how many droppers are before it, and of which section of a route it is, from 0:
+        an excerpt has the errors that its droppers have in the line.
 
     """
 
     deviation: float
     seed: int = 1
+    before: int = 0
+    section: int = 0
 
     def check(self, where: str) -> None:
         """Raise ModelError if a value is out of range."""
         checks.non_negative(self.deviation, f"{where}.deviation")
         checks.integer(self.seed, f"{where}.seed", 0, MOST_SEED)
+        for key in ("before", "section"):
+            checks.integer(getattr(self, key), f"{where}.{key}", 0, MOST_SEED)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

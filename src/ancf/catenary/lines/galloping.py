@@ -216,7 +216,7 @@ def galloping(line: Any) -> list[Galloping]:
             continue
         left = 1.0 - air.wear if name == "contact wire" else 1.0
         pulled = getattr(air, f"{name.removesuffix(' wire')}_tension", None)
-        mass, tension = left * wire.mass + air.ice, pulled or wire.tension
+        mass, tension = left * wire.mass + wire.count * air.ice, pulled or wire.tension
         w = np.pi / (2.0 * part.stitch.reach if name == "stitch wire" else span) * np.sqrt(tension / mass)
         slope = slope_at(wire.lift)
         damping = wire.damping / mass + part.damping.alpha + part.damping.beta * w**2

@@ -203,7 +203,7 @@ class Line:
         checks.positive(self.gravity, "line.gravity")
         checks.between(self.temperature, "line.temperature", COLDEST, HOTTEST)
         self.tensioner.check("line.tensioner", self.anchors)
-        self.conditions.check("line.conditions", self.contact_wire, self.messenger_wire)
+        self.conditions.check("line.conditions", self.contact_wire, self.messenger_wire, self.anchors)
         self._check_wind()
         for k, load in enumerate(self.loads):
             load.check(f"line.loads[{k}]", self.length)

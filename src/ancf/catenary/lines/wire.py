@@ -72,6 +72,8 @@ class Wire:
     rail : bool
         A conductor rail: it carries itself from support to support by its bending stiffness and needs no
         tension.
+    count : int
+        How many wires side by side it stands for, see `times`: ice hangs on each of them.
 
     """
 
@@ -85,6 +87,7 @@ class Wire:
     expansion: float = EXPANSION
     rail: bool = False
     lift: Any = None
+    count: int = 1
 
     def __post_init__(self) -> None:
         """Keep rows as they can be compared."""
@@ -121,13 +124,14 @@ class Wire:
         }
         if self.lift is not None:
             added["lift"] = tuple((angle, count * value) for angle, value in self.lift)
-        return replace(self, **added)
+        return replace(self, count=count * self.count, **added)
 
     def check(self, where: str) -> None:
         """Raise ModelError if a value is out of range, or the wire would stretch by more than 5 %."""
         for key in ("EA", "mass"):
             checks.positive(getattr(self, key), f"{where}.{key}")
         checks.flag(self.rail, f"{where}.rail")
+        checks.integer(self.count, f"{where}.count", 1, 1000)
         if self.rail:
             checks.non_negative(self.tension, f"{where}.tension")
             checks.positive(self.EI, f"{where}.EI")

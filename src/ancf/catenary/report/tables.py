@@ -232,6 +232,12 @@ def _tension_length(line: Line) -> Iterator[tuple[str, str, str]]:
         values = f"{wire.mass:g} kg/m, tension {wire.tension:g} N, EA {wire.EA:g} N, EI {wire.EI:g} N m²"
         yield "auxiliary", "auxiliary_wire", f"{values}, {auxiliary.height:g} m over the contact wire"
         yield "long droppers", "long_droppers", _droppers(auxiliary.droppers)
+    if getattr(line, "stitch", None) is not None:
+        stitch = line.stitch
+        assert stitch is not None
+        wire = stitch.wire
+        values = f"{wire.mass:g} kg/m, tension {wire.tension:g} N, EA {wire.EA:g} N, EI {wire.EI:g} N m²"
+        yield "stitch wires", "stitch", f"{values}, {stitch.reach:g} m to either side of a support"
     yield "damping of the wires", "damping", f"alpha {line.damping.alpha:g} 1/s, beta {line.damping.beta:g} s"
     yield "droppers", "droppers", _droppers(line.droppers)
     yield "system height [m]", "system_height", _few(line.system_height)
@@ -266,6 +272,7 @@ def pantograph_data(content: Content, k: int) -> Element:
         ("damping [N s/m]", "damping", _springs(p.damping)),
         ("static force [N]", "static_force", f"{p.static_force:g}"),
         ("aerodynamic force over v² [N s²/m²]", "aerodynamic", _few(p.aerodynamics)),
+        ("lowest spring relaxed at", "relaxed_at", getattr(p, "relaxed_at", "start")),
         ("length of the strip [m]", "strip_length", f"{p.strip_length:g}"),
     ]
     if any(getattr(p, "friction", ())):
