@@ -1,4 +1,4 @@
-"""What happens to sliding joints in steps of Radau: contact opens, carriers end; as by the trapezoidal rule."""
+"""What happens to sliding joints in steps of Radau: contact opens, carriers end; as by other methods."""
 
 import numpy as np
 import pytest
