@@ -222,6 +222,56 @@ class TestMotion:
         motion.advance(0.004, 0.001)
         assert motion.run.t == pytest.approx(0.005)
 
+    @pytest.mark.parametrize("steps", [1, 7])
+    @pytest.mark.parametrize("pull", [5.0, -3.0])
+    @pytest.mark.parametrize("again", [False, True])
+    def test_an_input_after_the_start_moves_on_from_there(self, units, steps, pull, again):
+        """Once it has begun, an equilibrium stays as it is: a jump of an input then is one of the motion."""
+        motion = self.motion(units)
+        motion.give("thrust", -1.0)
+        motion.begin()
+        kept, before = motion.state(), motion.run.position("load")
+        if again:
+            motion.give("thrust", 9.0)
+            motion.advance(0.0, 0.003)
+            motion.restore(type(kept).from_bytes(kept.to_bytes()))
+        motion.give("thrust", pull)
+        assert np.array_equal(motion.run.position("load"), before)
+        motion.advance(0.0, steps * 1e-3)
+        plain = read_study(units / "pulled rope.toml").model.to_dict()
+        plain["inputs"][0]["value"] = -1.0
+        model = ancf.Model.from_dict(plain)
+        run = ancf.stepper(model, step=1e-3, start=ancf.equilibrium(model))
+        run.inputs["thrust"] = pull
+        run.advance(steps)
+        assert np.allclose(motion.run.position("load"), run.position("load"), rtol=0, atol=1e-12)
+        assert np.linalg.norm(run.position("load") - before) > 1e-8
+
+    def test_a_first_time_that_was_told(self, units):
+        motion = self.motion(units)
+        motion.place(2.0)
+        with pytest.raises(ModelError, match=r"do_step.time: is 0.5 s, the run is at 2 s"):
+            motion.advance(0.5, 0.001)
+        motion.advance(2.0, 0.001)
+        kept, other = motion.state(), self.motion(units)
+        other.restore(kept)
+        other.advance(2.001, 0.001)
+
+    @pytest.mark.parametrize("bad", [float("nan"), float("inf")])
+    def test_what_is_no_number(self, units, bad):
+        """The step says so, and goes on with one that is."""
+        motion = self.motion(units)
+        for time, interval in ((bad, 0.001), (0.0, bad)):
+            with pytest.raises(ModelError, match=r"do_step.(time|interval): must be a finite number"):
+                motion.advance(time, interval)
+        motion.advance(0.0, 0.001)
+        motion.give("lift", bad)
+        with pytest.raises(ModelError, match='input "lift": must be a finite number'):
+            motion.advance(0.001, 0.001)
+        motion.give("lift", 0.25)
+        motion.advance(0.001, 0.001)
+        assert np.all(np.isfinite(motion.run.q))
+
     def test_an_input_before_the_first_step_moves_the_start(self, units):
         motion, x = self.motion(units), lambda m: m.run.position("rope.end")[0]
         before = x(motion)

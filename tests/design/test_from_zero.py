@@ -56,18 +56,19 @@ NUMBERS = ["friction", "damping", "stiffness"]
 def test_of_springs(build, key):
     """Backwards there was none by a friction that is 0."""
     model, name = MODELS[build](), f"stay.{key}"
+    if build == "a slack one" and key == "friction":
+        with pytest.raises(ancf.ModelError, match="a spring that is slack has no friction"):
+            ancf.simulate(model, **RUN, sensitivities=[name])
+        return
     value = next(getattr(one, key) for one in model.connections if one.name == "stay")
     own = ancf.simulate(model, **RUN, sensitivities=[name]).sensitivity(name).velocity("bob")[-1, 0]
     _, back = ancf.gradient(model, FINAL, [name], **RUN)
     assert back[name] == pytest.approx(own, rel=1e-7, abs=1e-12)
-    if build != "a slack one" or key != "friction":
-        h = 1e-4 * max(value, 0.1)
-        near = [
-            ancf.simulate(varied(model, name, value + k * h), **RUN).velocity("bob")[-1, 0] for k in range(3)
-        ]
-        wanted = (4.0 * near[1] - 3.0 * near[0] - near[2]) / (2.0 * h)
-        assert own == pytest.approx(wanted, rel=1e-4, abs=1e-7)
-        assert own != 0.0
+    h = 1e-4 * max(value, 0.1)
+    near = [ancf.simulate(varied(model, name, value + k * h), **RUN).velocity("bob")[-1, 0] for k in range(3)]
+    wanted = (4.0 * near[1] - 3.0 * near[0] - near[2]) / (2.0 * h)
+    assert own == pytest.approx(wanted, rel=1e-4, abs=1e-7)
+    assert own != 0.0
 
 
 def lying():

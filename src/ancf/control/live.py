@@ -152,6 +152,11 @@ class Live(State):
         return None
 
     @property
+    def rests(self) -> bool:
+        """No run is an equilibrium."""
+        return False
+
+    @property
     def q(self) -> FloatArray:
         """State vector, shape (size,), a copy."""
         return self._q.copy()

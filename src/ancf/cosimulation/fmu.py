@@ -78,8 +78,11 @@ class {name}(Fmi{n}Slave):
     def to_xml(self, *options):
         return described(super().to_xml(*options), self.motion)
 
+    def setup_experiment(self, start_time, *rest):
+        self.motion.place(start_time)
+
     def exit_initialization_mode(self):
-        self.motion.run
+        self.motion.begin()
 
     def do_step(self, current_time, step_size):
         try:

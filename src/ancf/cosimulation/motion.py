@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import json
+import math
 from dataclasses import dataclass
 from pathlib import Path
 
 from ..analysis import equilibrium
 from ..control.stepper import Stepper, gone_on_from, stepper
 from ..errors import ModelError
+from ..model import checks
 from ..model.file import Study, read_study
 from ..model.model import Model
 from ..model.settings import FITS, SimulationSettings
@@ -22,8 +24,8 @@ MODEL, OUTPUTS = "model.toml", "outputs.json"
 class Motion:
     """A model that another program leads: inputs in, steps, outputs out. Its time 0 is where that begins.
 
-    The run begins when something is asked first; an input that changes before its first step changes the
-    equilibrium from which it starts.
+    The run begins when something is asked first; an input that changes until :meth:`begin` changes the
+    equilibrium from which it starts, later ones hold from the next step on.
 
     Parameters
     ----------
@@ -42,6 +44,15 @@ class Motion:
         self.inputs = {name: item.value for name, item in self.study.model.inputs.items()}
         self._run: Stepper | None = None
         self._start, self._done = 0.0, 0
+        self._placed = self._begun = False  # whether its first time is known, and it does not start anew
+
+    def place(self, time: float) -> None:
+        """Tell the time of the other program at which it begins."""
+        self._start, self._placed = time, True
+
+    def begin(self) -> None:
+        """Let the start be what it is now: inputs that are given from now on hold from the next step on."""
+        self._begun = self.run is not None
 
     @property
     def run(self) -> Stepper:
@@ -51,11 +62,11 @@ class Motion:
         return self._run
 
     def give(self, name: str, value: float) -> None:
-        """Give an input."""
-        if self.inputs[name] != value and self._done == 0:
+        """Give an input; a step refuses one that is no finite number."""
+        if self.inputs[name] != value and not self._begun:
             self._run = None
         self.inputs[name] = value
-        if self._run is not None:
+        if self._run is not None and math.isfinite(value):
             self._run.inputs[name] = value
 
     def said(self, name: str) -> str:
@@ -72,12 +83,17 @@ class Motion:
         Raises
         ------
         ModelError
-            The interval is no multiple of the model's step, or the time is not where the run is.
+            The interval is no multiple of the model's step, the time is not where the run is, or an input is
+            no finite number.
         SolveError
             A step failed.
         """
         step = settings_of(self.study).step
-        if self._done == 0:
+        checks.number(time, "do_step.time")
+        checks.number(interval, "do_step.interval")
+        for name, value in self.inputs.items():
+            checks.number(value, f'input "{name}"')
+        if not (self._placed or self._done):
             self._start = time
         ratio = (time - self._start) / step
         if abs(ratio - self._done) > max(FITS * abs(ratio), 0.01):
@@ -87,13 +103,14 @@ class Motion:
         if last <= self._done or abs((time + interval - self._start) / step - last) > 0.01:
             what = f"is {interval:g} s, must be a multiple of the model's step of {step:g} s"
             raise ModelError("do_step.interval", what, "change the communication step, or simulation.step")
+        self.begin()
         self.run.advance(last - self._done)
         self._done = last
 
     def state(self) -> Kept:
         """All that decides how it goes on, for :meth:`restore`."""
         run = None if self._run is None else self._run.snapshot()
-        return Kept(dict(self.inputs), self._start, self._done, run)
+        return Kept(dict(self.inputs), self._start, self._done, run, self._placed, self._begun)
 
     def restore(self, kept: Kept) -> None:
         """Be as when a state was taken, of this motion or of one of the same unit in another process.
@@ -114,6 +131,7 @@ class Motion:
             self._run.restore(kept.run)
         self.inputs = dict(kept.inputs)
         self._start, self._done = kept.start, kept.done
+        self._placed, self._begun = kept.placed, kept.begun
 
 
 @dataclass(frozen=True)
@@ -129,16 +147,20 @@ class Kept:
         Steps since then.
     run : Checkpoint or None
         None: it has not begun.
+    placed, begun : bool
+        Whether it was told its first time, and does not start anew.
     """
 
     inputs: dict[str, float]
     start: float
     done: int
     run: Checkpoint | None
+    placed: bool = False
+    begun: bool = True
 
     def to_bytes(self) -> bytes:
         """The state as bytes: a line of JSON, and the snapshot of the run."""
-        head = {name: getattr(self, name) for name in ("inputs", "start", "done")}
+        head = {name: getattr(self, name) for name in ("inputs", "start", "done", "placed", "begun")}
         return json.dumps(head).encode() + b"\n" + (b"" if self.run is None else to_bytes(self.run))
 
     @classmethod

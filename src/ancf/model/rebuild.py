@@ -12,10 +12,10 @@ from . import checks
 from .bodies.beam import Beam
 from .bodies.layout import placed_beam
 from .bodies.rigid import IN_FLUID, Body, make_point_mass, make_rigid_body
-from .describe import VELOCITIES, section_of
+from .describe import VELOCITIES, fields_of, other, section_of
 from .functions.function import Missing, TimeFunction
 from .functions.inputs import Input, named
-from .kinds import GROUPS, SURROUNDINGS, by_word
+from .kinds import GROUPS, SURROUNDINGS, by_word, kind_of
 from .surroundings.velocity_field import VelocityField
 
 if TYPE_CHECKING:
@@ -137,6 +137,29 @@ def add_surrounding(model: Located, group: str, number: int, given: Mapping[str,
     """Add a fluid, a ground or a surface by the arguments of its method; errors as of :func:`add_item`."""
     kind = SURROUNDINGS[group]
     _add(model, kind.method, f"{group}[{number}]", kind.word, given)
+
+
+def added_again(model: Any, old: Any, new: Any, where: str) -> None:
+    """Raise ModelError, of ``where``, if the method of an item does not accept it beside all others.
+
+    Parameters
+    ----------
+    model : Model
+        With the item as it was. It stays as it is.
+    old, new : object
+        Item of the model, and the same with another number.
+    """
+    bare = model.snapshot()
+    group = next(key for key in (*GROUPS, *SURROUNDINGS) if any(one is old for one in getattr(bare, key)))
+    setattr(bare, group, [one for one in getattr(bare, group) if one is not old])
+    plain = fields_of(new) if group in SURROUNDINGS else other(new, kind_of(new))
+    try:
+        if group in SURROUNDINGS:
+            add_surrounding(bare, group, 0, _arguments(Table(plain, where)))
+        else:
+            add_item(bare, group, 0, plain["type"], _arguments(Table(plain, where)))
+    except ModelError as error:
+        raise ModelError(where, error.what, error.hint) from None
 
 
 def _add(model: Located, method: str, where: str, word: str, given: Mapping[str, Any]) -> None:

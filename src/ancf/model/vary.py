@@ -20,8 +20,9 @@ from .describe import section_of
 from .exchange import exchanged, renewed
 from .functions.function import Scaled, TimeFunction
 from .functions.inputs import make_input
+from .joints.connections import Spring
 from .kinds import GROUPS, SURROUNDINGS
-from .loads.load import DistributedLoad
+from .rebuild import added_again
 from .sections.moments import of_similar_rectangle
 from .sections.section import DAMPINGS, FOURTH_MOMENTS, Section
 
@@ -114,7 +115,7 @@ def _resolve(model: Model, name: Any, exchange: Any) -> tuple[float, Any]:
     if name.startswith("gravity"):
         found = KEY.fullmatch(name)
         if found is not None and found["key"] == "gravity":
-            return _of_vector(name, model.gravity, found["part"], lambda g: _with(model, gravity=g))
+            return _of_vector(name, model.gravity, found["part"], lambda g: _under(model, g, name))
     if name in model.inputs:
         item = model.inputs[name]
         return float(item.value), lambda x: _with(
@@ -131,7 +132,8 @@ def _resolve(model: Model, name: Any, exchange: Any) -> tuple[float, Any]:
         return _of_body(partial(exchange, model), model.bodies[owner], name, found["key"], found["part"])
     for item in _items(model):
         if item.name == owner:
-            return _of_item(partial(exchange, model), item, name, found["key"], found["part"])
+            put = partial(_put_checked, model, exchange, name)
+            return _of_item(put, item, name, found["key"], found["part"])
     known = [*model.bodies, *(item.name for item in _items(model))]
     there = f"there are: {checks.listed(dict.fromkeys(known), 10)}" if known else "it has nothing yet"
     raise ModelError(name, f'the model has no "{owner}", {there}', checks.nearest(owner, known))
@@ -158,6 +160,27 @@ def _with(model: Model, **values: Any) -> Model:
     return other
 
 
+def _under(model: Model, gravity: Any, name: str) -> Model:
+    """A model with another gravity, under which there may be its waves."""
+    made = _with(model, gravity=gravity * (0.0, 0.0, 1.0))  # sideways they do not depend on it
+    for fluid in made.fluids:
+        if fluid.waves is not None:
+            added_again(made, fluid, fluid, name)
+    made.gravity = gravity
+    return made
+
+
+def _put_checked(model: Model, exchange: Any, name: str, old: Any, new: Any) -> Any:
+    """A model with another item, which its method has to accept."""
+    try:
+        added_again(model, old, new, name)
+    except ModelError as error:
+        if not name.endswith((".above", ".below")):
+            raise
+        raise ModelError(name, error.what, f"to move where two fluids meet: {BUILT}") from None
+    return exchange(model, old, new)
+
+
 def _of_vector(name: str, given: Any, part: str | None, use: Any) -> tuple[float, Any]:
     """A component, or all of an array by a factor."""
     vector = np.asarray(given, dtype=np.float64)
@@ -181,6 +204,9 @@ def _of_body(put: Put, body: Body, name: str, key: str, part: str | None) -> tup
     if isinstance(body, Beam):
         if body.has_section and key in ("EA", "EI", "rhoA"):
             raise ModelError(name, "follows from material and shape here", "E, rho, width, height, ...")
+        if body.has_section and key == "slope_damping":
+            what = f'has no effect on element "{body.element}", it damps cables only'
+            raise ModelError(name, what, "damping, axial_damping or bending_damping")
         if key in (*DIRECT, *MATERIAL, *PAIRS):
             now, made = _of_section(body.section, name, key, part)
             return now, lambda x: use(section=made(x))
@@ -321,11 +347,13 @@ def _of_end(put: Put, beam: Beam, name: str, key: str, part: str | None) -> tupl
 def _of_item(put: Put, item: Any, name: str, key: str, part: str | None) -> tuple[float, Any]:
     if key not in _keys(item):
         raise _no_key(item, name, key)
+    if isinstance(item, Spring) and item.slack and key in ("friction", "friction_velocity"):
+        raise ModelError(name, "has no effect: a spring that is slack has no friction")
     field = key if hasattr(item, key) else CALLED[key]
     value = getattr(item, field)
 
     def use(changed: Any) -> Any:
-        return put(item, _checked(replace(item, **{field: changed}), name))
+        return put(item, replace(item, **{field: changed}))
 
     if isinstance(value, float) and part is None:
         return value, use
@@ -338,16 +366,6 @@ def _of_item(put: Put, item: Any, name: str, key: str, part: str | None) -> tupl
     plain = isinstance(value, bool | str | tuple | type(None))  # others would show the insides of the package
     what = f"is no number: {checks.shown(value)}" if plain else "is no number"
     raise ModelError(name, what, BUILT)
-
-
-def _checked(item: Any, name: str) -> Any:
-    """An item with another number; a load stays on its body."""
-    if isinstance(item, DistributedLoad):
-        x0, x1 = item.between
-        if not 0.0 <= x0 < x1 <= item.body.length:
-            what = f"must ascend within 0 and {item.body.length:g}, are {x0:.8g} and {x1:.8g}"
-            raise ModelError(name, what)
-    return item
 
 
 def _of_function(given: TimeFunction, name: str, part: str | None, use: Any) -> tuple[float, Any]:

@@ -14,6 +14,7 @@ from ..errors import ModelError, named
 from ..model.surfaces.surface import SurfaceContact
 from ..model.tables import Readable, Sheet
 from ..solvers.record import Stats
+from ..system import initial_motion
 from ..system.contact_fields import ContactFields
 from ..system.energy import energies
 from ..system.spring_fields import SpringFields, springs_of
@@ -101,6 +102,16 @@ class State(SpringFields, ContactFields, Momenta, Motions, StatePlotted, Readabl
     def _sheet(self) -> Sheet:
         return of_state(self)
 
+    @property
+    def rests(self) -> bool:
+        """Whether it is an equilibrium of bodies without motion: supports that move count as at rest."""
+        return self.known.balanced and all(map(initial_motion.at_rest, self.model.bodies.values()))
+
+    @property
+    def rates(self) -> FloatArray:
+        """Rates with which forces act, shape (size,): none in an equilibrium, whose supports may move."""
+        return np.zeros_like(self.v) if self.rests else self.v
+
     def contact_line(self, contact: Any) -> ContactLine:
         """What a beam and a surface do to each other along the beam: gap, normal force, friction, slip.
 
@@ -126,7 +137,7 @@ class State(SpringFields, ContactFields, Momenta, Motions, StatePlotted, Readabl
         if "rubbing" in parts:
             known = self._memory_of("rubbing") or {"acted": np.zeros_like(parts["rubbing"].acted)}
             parts["rubbing"] = parts["rubbing"]._replace(**known)
-        return contact_line(parts, items, item, self.q, self.v)
+        return contact_line(parts, items, item, self.q, self.rates)
 
     def _turned_to(self, spring: Any) -> float | None:
         return self._remembered_turn(spring, self.known.memory)
@@ -208,4 +219,4 @@ class State(SpringFields, ContactFields, Momenta, Motions, StatePlotted, Readabl
         return [(self.q, self.v, self.t, self.known)]
 
     def _at_rest(self, name: str) -> FloatArray | None:
-        return motions.at_rest(self.system, self.q, self.v, self.t, self.known, name)
+        return motions.at_rest(self.system, self.q, self.rates, self.t, self.known, name)

@@ -174,7 +174,7 @@ def pieces(known: Any, beams: list[Beam], every: int = 1) -> Iterator[tuple[IntA
     """Rows of a history, or the one of a state, and the forces of each cable there, part after part."""
     damped = any(beam.section.axial_damping for beam in beams)
     for rows, place in parts(known, beams, every, CHUNK):
-        q, v = np.atleast_2d(known.q[place]), np.atleast_2d(known.v[place]) if damped else None
+        q, v = np.atleast_2d(known.q[place]), np.atleast_2d(known.rates[place]) if damped else None
         yield (
             rows,
             {

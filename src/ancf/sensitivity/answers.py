@@ -49,6 +49,7 @@ class Face(SpringFields, ContactFields, Momenta):
 
     ``beside``: they are changed, or the system is another one, for a difference. ``base``: then points are
     those of this system. ``times``: of the states, if they are stored ones, which have accelerations.
+    ``rests``: they are of an equilibrium, in which supports that move count as at rest.
     """
 
     def __init__(
@@ -60,8 +61,9 @@ class Face(SpringFields, ContactFields, Momenta):
         beside: bool = False,
         base: System | None = None,
         times: Any = None,
+        rests: bool = False,
     ) -> None:
-        self.beside, self.base = beside, None if base is system else base
+        self.beside, self.rests, self.base = beside, rests, None if base is system else base
         self.system, self.model, self.t, self.times = system, system.model, t, times
         self._q, self._v = q, v
         self._bodies, self._slots = self.model.bodies, system.slots
@@ -69,6 +71,11 @@ class Face(SpringFields, ContactFields, Momenta):
         self._springs = springs_of(self.model.connections)
         self._found = _PROBES.setdefault(system, {})
         self.inertial = False  # something was asked that has forces of inertia in it
+
+    @property
+    def rates(self) -> FloatArray:
+        """See :attr:`ancf.State.rates`."""
+        return np.zeros_like(self.v) if self.rests else self.v
 
     def _probe(self, point: Any) -> Probe:
         """Where a point is, which is asked many times of one system by its name."""
@@ -103,7 +110,7 @@ class Face(SpringFields, ContactFields, Momenta):
     def _held_forces(self, name: str, question: str) -> FloatArray:
         """What is out of balance, (..., size), for a support; at rest without accelerations."""
         checked = None if self.beside else self.times is None
-        forces = at_rest(self.system, self.q, self.v, self.t, name, checked) if self.q.ndim == 1 else None
+        forces = at_rest(self.system, self.q, self.rates, self.t, name, checked) if self.q.ndim == 1 else None
         return self._in_motion(question)[1] if forces is None else forces
 
     def _in_motion(self, question: str) -> tuple[FloatArray, FloatArray]:
@@ -167,6 +174,7 @@ class Sensitivity:
         self._q, self._v, self._dq, self.dv = q, v, dq, dv
         self.memory: Row | None = None  # of what friction remembers in the last state, None: not known
         self.resting: Resting | None = None  # the same of an equilibrium with friction
+        self.rests = False  # it is of an equilibrium of bodies without motion, see State.rests
 
     @property
     def dq(self) -> FloatArray:
@@ -278,14 +286,14 @@ class Sensitivity:
         self, question: Callable[[Face], Any], linear: bool, around: list[tuple[System, float]]
     ) -> FloatArray:
         family, t = self._family, np.ravel(self.t)[-1]
-        face = Face(family.base, self._q, self._v, t, times=self.t)
+        face = self._face(family.base, self._q, self._v)
         here = np.asarray(question(face), dtype=np.float64)
         around = family.around() if face.inertial else around  # accelerations are not linear in a mass
         total: Any = np.zeros_like(here)
         for system, weight in around:
             if system is not family.base:
                 total = total + weight * (
-                    np.asarray(question(Face(system, self._q, self._v, t, True, family.base, self.t))) - here
+                    np.asarray(question(self._face(system, self._q, self._v, True, family.base))) - here
                 )
         if linear:
             return np.asarray(total + question(Face(family.base, self.dq, self.dv, t)))
@@ -296,12 +304,18 @@ class Sensitivity:
             ) -> FloatArray:
                 if self.resting is not None:
                     self.resting.bring(family.base, x if places else 0.0)
-                near = Face(family.base, self._q + x * dq, self._v + x * dv, t, True, times=self.t)
+                near = self._face(family.base, self._q + x * dq, self._v + x * dv, True)
                 return np.asarray(question(near), dtype=np.float64)
 
             total = total + derivative(moved, e)
         found: FloatArray = np.asarray(total)
         return found
+
+    def _face(
+        self, system: System, q: FloatArray, v: FloatArray, beside: bool = False, base: System | None = None
+    ) -> Face:
+        """What answers questions about these states of the model, or of one with another number."""
+        return Face(system, q, v, np.ravel(self.t)[-1], beside, base, self.t, self.rests)
 
     def _moves(self) -> list[tuple[float, FloatArray, FloatArray, bool]]:
         """Sizes and directions of the changes of the state; whether places change, not velocities."""

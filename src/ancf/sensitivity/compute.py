@@ -56,6 +56,8 @@ def of_state(
         family.name: Sensitivity(family, state.t, state.q, state.v, dq, dv)
         for family, (dq, dv) in zip(families, found, strict=True)
     }
+    for one in made.values():
+        one.rests = state.rests
     memory.hand_to(list(made.values()))
     if memory:
         memory.rest(list(made.values()))

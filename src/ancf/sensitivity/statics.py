@@ -91,6 +91,9 @@ def _plainly(
     """What parameters that change no support and no row of a joint do to a state at rest, by family."""
     nearby, zero, none = Nearby(families, system), np.zeros((1, q.size)), np.zeros((3, 1, q.size))
     tables = system.inputs.tables(*when[:2], 1, *when[2:])
+    motion, rotation = tables.motion.copy(), tables.rotation.copy()
+    motion[..., 1:], rotation[:, :, 1:] = 0.0, 0.0  # supports that move count as at rest
+    tables = tables._replace(motion=motion, rotation=rotation)
     nearby.know()
     pushes = nearby.plain_at_steps(Way(q[None].copy(), zero.copy(), zero.copy()), when, tables)
     pushes[..., core.supports.held] = 0.0

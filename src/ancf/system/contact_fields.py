@@ -127,7 +127,7 @@ class ContactFields(SlideFields):
             return self._pressed(name)
         batch = self._contact_system().parts["contacts"]
         mine = batch._replace(found=batch.found.copy())  # a question must not move where a run goes on
-        q, v = np.atleast_2d(self.q[...]), np.atleast_2d(self.v[...])  # type: ignore[attr-defined]
+        q, v = np.atleast_2d(self.q[...]), np.atleast_2d(self.rates[...])  # type: ignore[attr-defined]
         out = np.empty((len(q), 4))
         contact_values(mine, strips.index(name), np.ascontiguousarray(q), np.ascontiguousarray(v), out)
         values: FloatArray = out if len(self.q.shape) > 1 else out[0]  # type: ignore[attr-defined]
@@ -135,7 +135,7 @@ class ContactFields(SlideFields):
 
     def _pressed(self, name: str) -> FloatArray:
         """What ``found`` of a contact all along a beam says, friction as far as it is known."""
-        q, v = np.atleast_2d(self.q[...]), np.atleast_2d(self.v[...])  # type: ignore[attr-defined]
+        q, v = np.atleast_2d(self.q[...]), np.atleast_2d(self.rates[...])  # type: ignore[attr-defined]
         kind = next(kind for kind in TOUCHING if name in _named(self.model, kind))
         smooth, rough, forces, _ = TOUCHING[kind]
         k, parts = _named(self.model, kind).index(name), self._contact_system().parts

@@ -55,6 +55,11 @@ class Fields:
         """Rates of the state vectors, shape (..., size)."""
         return self._v
 
+    @property
+    def rates(self) -> FloatArray:
+        """Those with which forces act, shape (..., size): none in an equilibrium, whose supports may move."""
+        return self.v
+
     _bodies: dict[str, Body]
     _slots: dict[str, IntArray]
     #: Of cables with a winch, see :func:`ancf.system.probe.lengths_of`.
@@ -120,12 +125,14 @@ class Fields:
         """
         probe = self._beam(point)
         if probe.solid:
-            return _projected(probe, lambda p: _along(p, self.q, sections.resultants(p, self.q, self.v)[0]))
+            return _projected(
+                probe, lambda p: _along(p, self.q, sections.resultants(p, self.q, self.rates)[0])
+            )
         section, strain = probe.beam.section, probe.beam.strain
         r_x = probe.field(self.q, R_X)
         force = section.EA * self.strain(point)
         if section.axial_damping:
-            rate = axial_strain_rate(r_x, probe.rate(self.q, self.v, R_X), strain)
+            rate = axial_strain_rate(r_x, probe.rate(self.q, self.rates, R_X), strain)
             force = force + section.axial_damping * rate
         return force if strain == "material" else force * np.linalg.norm(r_x, axis=-1)
 
@@ -144,7 +151,7 @@ class Fields:
         section, strain = probe.beam.section, probe.beam.strain
         moment = section.EI * (self.curvature(point) - natural_strains(probe)[1])
         if section.bending_damping:
-            moment = moment + section.bending_damping * _curvature_rate(probe, self.q, self.v, strain)
+            moment = moment + section.bending_damping * _curvature_rate(probe, self.q, self.rates, strain)
         return moment
 
     def section_moment(self, point: Point | str) -> FloatArray:
@@ -156,7 +163,7 @@ class Fields:
             The body is a cable; so for all that follow.
         """
         probe = self._section(point)
-        moment = sections.resultants(probe, self.q, self.v)[1]
+        moment = sections.resultants(probe, self.q, self.rates)[1]
         axes = sections.rotation(sections.section(probe, self.q))
         components: FloatArray = np.einsum("...ij,...i->...j", axes, moment)
         return components

@@ -10,7 +10,6 @@ from ..arrays import FloatArray
 from ..errors import ModelError
 from ..model.joints.connections import Spring
 from ..model.supports.held import support_asked
-from . import initial_motion
 from .core import apply_load, residual
 from .system import System
 
@@ -33,11 +32,9 @@ def at_rest(
     ModelError
         The state is one of ``ancf.equilibrium``, which ``balanced`` says, but not of the support's body.
     """
-    # of an equilibrium supports alone may move: it is what it would be if they stood
-    thrown = not balanced or any(not initial_motion.at_rest(b) for b in system.model.bodies.values())
     moving = np.abs(v[: system.n]) * system.core.weight
     moving[list(system.numbering.lengths.values())] = 0.0  # an equilibrium has them at a time
-    if thrown and np.max(moving) > AT_REST:
+    if np.max(moving) > AT_REST:
         return None
     r, load = _out_of_balance(system, q.copy(), time)
     loose = 0.0 if balanced is None else _loose(system, name, r, load)

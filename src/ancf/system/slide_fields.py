@@ -44,7 +44,7 @@ class SlideFields(JointFields):
         name = called(joint)
         item = next(c for c in me.model.connections if isinstance(c, Slide) and c.name == name)
         x, line, poly = carrier_line(item, me.slots)
-        q, v = np.atleast_2d(me.q[...]), np.atleast_2d(me.v[...])
+        q, v = np.atleast_2d(me.q[...]), np.atleast_2d(me.rates[...])
         s, force = q[:, arc], q[:, self._joints[name][:3]]
         e = np.clip(np.searchsorted(x[:, 0], s, side="right") - 1, 0, len(x) - 1)
         t = _tangent(q, line[e], poly[e], (s - x[e, 0]) / x[e, 1]) / x[e, 1:2]

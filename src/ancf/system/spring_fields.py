@@ -61,7 +61,7 @@ class SpringFields(CrossAngles):
         total: FloatArray = np.zeros(3)
         for end, sign in ((spring.a, -1.0), (spring.b, 1.0)):
             if isinstance(end, Point):
-                total = total + sign * self._probe(end).field(self.v if rates else self.q)
+                total = total + sign * self._probe(end).field(self.rates if rates else self.q)
             elif not rates:
                 total = total + sign * end
         return total

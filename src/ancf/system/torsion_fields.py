@@ -67,7 +67,7 @@ class TorsionFields(Fields):
             There is no such torsion spring.
         """
         item, batch = self._torsion(spring)
-        rate = rate_of(batch, self.q, self.v)
+        rate = rate_of(batch, self.q, self.rates)
         moment: FloatArray = item.stiffness * (self.torsion_angle(spring) - item.angle) + item.damping * rate
         return moment
 

@@ -165,8 +165,9 @@ class Stepper:
         self._rejected, self._error_before = True, 1.0
 
     def start(self, t: float, q: FloatArray, v: FloatArray, a: FloatArray) -> None:
-        """Consistent state at the time t, copied."""
+        """Consistent state at the time t, copied; nothing of steps before is taken to be as it was."""
         self.t, self.q, self.v, self.a = t, q.copy(), v.copy(), a.copy()
+        self.last, self._h_matrices = None, 0.0
 
     def values(self) -> dict[str, float]:
         """Numbers that decide how it goes on, ready for JSON."""

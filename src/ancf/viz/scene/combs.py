@@ -29,7 +29,7 @@ def make_combs(
     items = [item for item in shown.model.connections if isinstance(item, SurfaceContact)]
     found = []
     for j, item in enumerate(items):
-        values = teeth(system.parts["pressing"], j, shown.q, shown.v)
+        values = teeth(system.parts["pressing"], j, shown.q, shown.rates)
         per_length = np.linalg.norm(values[..., FORCE:SLIDE], axis=-1)
         ever = per_length.max(axis=0) > 0.0
         if not np.any(ever):

@@ -49,12 +49,22 @@ class Frames(SpringFields):
         For its model, slots and springs.
     t : (n,) s
     q, v : (n, size)
+    rates : (n, size), optional
+        With which forces act, see :attr:`ancf.State.rates`; default v.
     """
 
-    def __init__(self, source: Any, t: FloatArray, q: FloatArray, v: FloatArray) -> None:
+    def __init__(
+        self, source: Any, t: FloatArray, q: FloatArray, v: FloatArray, rates: FloatArray | None = None
+    ) -> None:
         self._bodies, self._slots, self._springs = source.bodies, source.slots, source.springs
         self._lengths = source.lengths
         self.t, self._q, self._v, self.model = t, q, v, source.model
+        self._rates = v if rates is None else rates
+
+    @property
+    def rates(self) -> FloatArray:
+        """See :attr:`ancf.State.rates`."""
+        return self._rates
 
     def place(self, end: Any) -> FloatArray:
         """Positions (n, 3) of a point, a body's own point, or a fixed position, m."""
@@ -135,7 +145,8 @@ def _of_states(
     source: Any, frames: int, start: float | None, end: float | None, times: FloatArray | None
 ) -> Picked:
     if isinstance(source, State):
-        return Picked(Frames(source, np.array([source.t]), source.q[None], source.v[None]), 1)
+        arrays = np.array([source.t]), source.q[None], source.v[None], source.rates[None]
+        return Picked(Frames(source, *arrays), 1)
     if not isinstance(source, Result):
         what = f"must be a Result, a State or Modes, is {checks.shown(source)}"
         raise ModelError("source", what)
