@@ -13,7 +13,9 @@ from ancf.catenary import Butterworth
 from ancf.catenary.answers.weights import NUMBERS, of_filtered
 from ancf.catenary.forms.mesh import Mesh
 from ancf.catenary.lines.file import parse_line
+from ancf.sensitivity import blocks
 from ancf.sensitivity.adjoint import UnsolvedError
+from ancf.sensitivity.adjoint_sloped import SlopedAdjoint
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "droppers_line.toml"
 MESH = Mesh(contact=3.0, messenger=4.0)
@@ -83,6 +85,42 @@ def test_each_dropper_by_default():
     same, alike = catenary.gradient(line(), "deviation", {"all": list(each)}, broken_droppers=["1-3"], **RUN)
     assert same == value
     assert alike["all"] == pytest.approx(sum(each.values()), rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    "more", [{}, {"contact_stiffness": 2e5}, {"spacing": 14.0, "start": 8.0, "until": 105.0}]
+)
+def test_few_corrections(more, monkeypatch):
+    """The stiffness of contacts is in the solutions of a step: what is left ends after two corrections."""
+    counts, back = [], SlopedAdjoint._back
+
+    def counted(self, way, *given):
+        status = back(self, way, *given)
+        counts.append((self._corrections[0], len(way.q)))
+        return status
+
+    monkeypatch.setattr(SlopedAdjoint, "_back", counted)
+    catenary.gradient(line(), "deviation", SOME, **RUN | more)
+    assert counts[-1][0] <= 2.1 * sum(steps for _, steps in counts)
+
+
+@pytest.mark.parametrize("number", ["deviation", "uplift"])
+@pytest.mark.parametrize("share", [0.0, 0.5])
+def test_however_states_are_kept(share, number, monkeypatch):
+    """All of them, velocities alone, or none, whose steps are taken again."""
+    first = catenary.gradient(line(), number, SOME, **RUN)
+    made, kept = [], blocks.Keeping.__init__
+
+    def less(self, system, steps, remembers):
+        monkeypatch.setattr(blocks, "KEPT", share * 24.0 * system.size * steps)
+        kept(self, system, steps, remembers)
+        made.append((self.all, self.some))
+
+    monkeypatch.setattr(blocks.Keeping, "__init__", less)
+    again = catenary.gradient(line(), number, SOME, **RUN)
+    assert made == [(False, share > 0.0)]
+    assert again[0] == first[0]
+    assert again[1] == pytest.approx(first[1], rel=1e-8)
 
 
 def test_with_a_sliding_joint():

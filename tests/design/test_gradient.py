@@ -26,6 +26,9 @@ OBJECTIVES = [
 ]
 
 
+SECTION = ancf.Section(EA=500.0, EI=0.5, rhoA=0.2, damping=0.1)
+
+
 def swinging(moves=True):
     """A cable with drag, a force, a spring and a clamp that moves."""
     model = ancf.Model(gravity=(0.0, 0.0, -9.81))
@@ -150,6 +153,31 @@ def test_steps_taken_again_give_the_same(monkeypatch):
     again = ancf.gradient(model, OBJECTIVES[1], ["beam.EI", "gravity"], **given)
     assert again[0] == first[0]
     assert again[1] == pytest.approx(first[1], rel=1e-10)
+
+
+@pytest.mark.parametrize("method", [TIGHT, ancf.GeneralizedAlpha(rho_inf=0.5, newton=TIGHT.newton)])
+@pytest.mark.parametrize(("elements", "steps"), [(2, 40), (3, 75)])
+def test_positions_from_velocities(elements, steps, method, monkeypatch):
+    """What supports move is kept, all else follows from velocities: local axes turn, and a body is held."""
+    model = swinging()
+    rope = model.add_beam("rope", start=(1, 0, 0), end=(2, 0.3, 0), elements=elements, section=SECTION)
+    model.clamp(rope.end, displacement=("0.01*sin(40*t)", 0, "0.3*t**2"))
+    model.connect(rope.start, model.bodies["beam"].end)
+    names = ["beam.EI", "rope.EA", "push.force", "stay.length"]
+    given = {"t_end": steps * 1e-3, "step": 1e-3, "integrator": method}
+    first = ancf.gradient(model, OBJECTIVES[1], names, **given)
+    made, kept = [], blocks.Keeping.__init__
+
+    def less(self, system, steps, remembers):
+        monkeypatch.setattr(blocks, "KEPT", 20.0 * system.size * steps)
+        kept(self, system, steps, remembers)
+        made.append((self.all, self.some))
+
+    monkeypatch.setattr(blocks.Keeping, "__init__", less)
+    again = ancf.gradient(model, OBJECTIVES[1], names, **given)
+    assert made == [(False, True)]
+    assert again[0] == first[0]
+    assert again[1] == pytest.approx(first[1], rel=1e-9)
 
 
 @pytest.mark.parametrize(("elements", "steps"), [(2, 400), (1500, 150), (2000, 200)])
