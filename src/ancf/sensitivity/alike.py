@@ -57,7 +57,9 @@ class Known:
     def __init__(self, system: System) -> None:
         self.tables = _tables(system)
         self.size = float(system.model.size)
-        self.rests = not system.inputs.rotations and all(map(at_rest, system.model.bodies.values()))
+        bodies, turned = system.model.bodies.values(), system.inputs.rotations
+        self.rests = not turned and all(map(at_rest, bodies))
+        self.glides = not (turned or system.constraints.rotations) and all(map(_glides, bodies))
         self._system = ref(system)
         self._states: dict[float, tuple[FloatArray, FloatArray]] = {}
         self._shape: FloatArray | None = None
@@ -201,6 +203,16 @@ def stays_at_rest(base: System, system: System) -> bool:
     own = base.model.bodies
     changed = (body for name, body in system.model.bodies.items() if body is not own[name])
     return Known.of(base).rests and all(map(at_rest, changed))
+
+
+def _glides(body: Any) -> bool:
+    """Whether the initial velocity is the same whatever the shape."""
+    return isinstance(body, PointMass) or at_rest(body)
+
+
+def moves_alike(base: System, system: System) -> bool:
+    """Whether both begin with the same velocities, or at rest, whatever their shapes are."""
+    return stays_at_rest(base, system) or (Known.of(base).glides and begins_alike(base, system))
 
 
 def alike(a: System, b: System) -> bool:

@@ -17,7 +17,7 @@ from .remembering import Row
 
 #: Bytes of states up to which all are kept and no step is taken again, and those of a block; of one of
 #: others, as snapshots are as large as some steps.
-KEPT, BLOCK, LARGEST = 320e6, 8e6, 128e6
+KEPT, BLOCK, LARGEST = 320e6, 16e6, 128e6
 
 
 class Collector:

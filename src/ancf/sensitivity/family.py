@@ -22,7 +22,7 @@ from ..errors import ModelError
 from ..system.beside import SLIDES, beside
 from ..system.core import Tables
 from ..system.system import System
-from .alike import Known, alike, begins_alike, changed, same_inputs, same_loads, stays_at_rest
+from .alike import Known, alike, begins_alike, changed, moves_alike, same_inputs, same_loads
 from .offsets import ABOVE, BENT, BOTH, FOUR, KINKED, PAIR, STEEP, STEP, TINY
 from .parameters import Parameter
 from .pushing import Pushing
@@ -390,7 +390,7 @@ class Family(Pushing):
 
     def of_motion(self, q: FloatArray, dq: FloatArray, time: float) -> FloatArray:
         """Derivative of the velocities of ``set_motion`` at a shape that changes by dq, (size,)."""
-        if self.plain and all(stays_at_rest(self.base, system) for system in self.systems):
+        if self.plain and all(moves_alike(self.base, system) for system in self.systems):
             return np.zeros(self.base.size)
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
