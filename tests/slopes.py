@@ -6,6 +6,7 @@ import numpy as np
 
 from ancf.model.vary import value_of, varied
 from ancf.paper import differences
+from ancf.sensitivity.adjoint_sloped import SlopedAdjoint
 
 
 def once(function):
@@ -47,3 +48,16 @@ def remainder_slopes(function, model, name, derivative, step=0.02, noise=1e-13):
         return np.zeros(0)
     good = np.array(left) > 10 * noise * scale
     return np.log10(np.array(left)[:-1] / np.array(left)[1:])[good[1:]]
+
+
+def counted_corrections(monkeypatch):
+    """Fills with corrections so far and steps, by block, as adjoints of forces with slopes go back."""
+    counts, back = [], SlopedAdjoint._back
+
+    def counted(self, way, *given):
+        status = back(self, way, *given)
+        counts.append((self._corrections[0], len(way.q)))
+        return status
+
+    monkeypatch.setattr(SlopedAdjoint, "_back", counted)
+    return counts

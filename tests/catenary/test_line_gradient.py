@@ -15,7 +15,7 @@ from ancf.catenary.forms.mesh import Mesh
 from ancf.catenary.lines.file import parse_line
 from ancf.sensitivity import blocks
 from ancf.sensitivity.adjoint import UnsolvedError
-from ancf.sensitivity.adjoint_sloped import SlopedAdjoint
+from slopes import counted_corrections
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "droppers_line.toml"
 MESH = Mesh(contact=3.0, messenger=4.0)
@@ -92,14 +92,7 @@ def test_each_dropper_by_default():
 )
 def test_few_corrections(more, monkeypatch):
     """The stiffness of contacts is in the solutions of a step: what is left ends after two corrections."""
-    counts, back = [], SlopedAdjoint._back
-
-    def counted(self, way, *given):
-        status = back(self, way, *given)
-        counts.append((self._corrections[0], len(way.q)))
-        return status
-
-    monkeypatch.setattr(SlopedAdjoint, "_back", counted)
+    counts = counted_corrections(monkeypatch)
     catenary.gradient(line(), "deviation", SOME, **RUN | more)
     assert counts[-1][0] <= 2.1 * sum(steps for _, steps in counts)
 

@@ -9,6 +9,7 @@ from ancf.sensitivity.adjoint_joints import JoinedAdjoint, adjoint_of
 from ancf.sensitivity.adjoint_sloped import SlopedAdjoint
 from ancf.system.system import System
 from sloped import SPEEDS, WAVES, afloat, in_waves, of_hull, under_gusts
+from slopes import counted_corrections
 
 TIGHT = ancf.Trapezoidal(newton=ancf.Newton(tolerance=1e-14, modified=False))
 METHODS = [TIGHT, ancf.GeneralizedAlpha(rho_inf=0.7, newton=TIGHT.newton)]
@@ -71,14 +72,7 @@ def test_of_any_weight(density, elements, step):
 @pytest.mark.parametrize(("step", "most"), [(1e-3, 3.5), (5e-3, 4.5), (2e-2, 5.5)])
 def test_corrections(step, most, monkeypatch):
     """After the first few steps, from which the next ones begin, few are enough for round-off."""
-    counts, back = [], SlopedAdjoint._back
-
-    def counted(self, way, *given):
-        status = back(self, way, *given)
-        counts.append((self._corrections[0], len(way.q)))
-        return status
-
-    monkeypatch.setattr(SlopedAdjoint, "_back", counted)
+    counts = counted_corrections(monkeypatch)
     model = afloat(9, buoy=False, section=of_hull(damping=0.2), velocity=SPEEDS["sheared"], below=0.1)
     ancf.gradient(model, OBJECTIVES[0], ["rope.EI"], **settings(step=step, steps=100))
     ((corrections, steps),) = counts
