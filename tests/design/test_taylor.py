@@ -220,7 +220,7 @@ def test_numbers_of_every_kind_have_names(word):
 
 def test_a_load_stays_on_its_body():
     model = CASES["distributed"][0]()
-    with pytest.raises(ancf.ModelError, match=r"it.between\[1\]: is 0.2 to 1.1 m, must be 0 <= x0 < x1 <= 1 m"):
+    with pytest.raises(ancf.ModelError, match=r"it.between\[1\]: is 0.2 to 1.1 m, must be"):
         varied(model, "it.between[1]", 1.1)
 
 
