@@ -77,8 +77,9 @@ def test_as_forwards(shape):
 @pytest.mark.parametrize("damping", [0.0, 300.0])
 def test_stiff_surfaces(damping):
     model, given = falling("sphere", 1e6, damping), settings()
-    _, slope = ancf.gradient(model, TIP, NAMES, **given)
-    assert apart(model, slope, differences(model, TIP, NAMES, 1e-7, **given)) < 1e-6
+    names = [name for name in NAMES if damping or name != "touch.damping"]  # it may not be negative
+    _, slope = ancf.gradient(model, TIP, names, **given)
+    assert apart(model, slope, differences(model, TIP, names, 1e-7, **given)) < 1e-6
 
 
 def over_a_pulley(shape="sheave", damping=30.0, stiffness=2e4):

@@ -30,6 +30,8 @@ if TYPE_CHECKING:
     from .model import Model
 
 KEY = re.compile(r"(?P<key>[A-Za-z_]\w*)(?:\[(?P<part>\d)\])?")
+#: Ends of connections: a joint closes at the start of a run, wherever they are.
+ENDS = {"a", "b"}
 #: Stiffnesses and mass of a section, and what it has of a material and a shape.
 DIRECT = ("EA", "EI", "rhoA", *DAMPINGS)
 MATERIAL = ("E", "nu", "rho", "width", "height", "diameter", "J", "A", "I_y", "I_z")
@@ -132,7 +134,8 @@ def _resolve(model: Model, name: Any, exchange: Any) -> tuple[float, Any]:
         return _of_body(partial(exchange, model), model.bodies[owner], name, found["key"], found["part"])
     for item in _items(model):
         if item.name == owner:
-            put = partial(_put_checked, model, exchange, name)
+            checked = partial(_put_checked, model, exchange, name)
+            put = partial(exchange, model) if found["key"] in ENDS else checked
             return _of_item(put, item, name, found["key"], found["part"])
     known = [*model.bodies, *(item.name for item in _items(model))]
     there = f"there are: {checks.listed(dict.fromkeys(known), 10)}" if known else "it has nothing yet"

@@ -25,7 +25,7 @@ from ..solvers.status import OK
 from ..system.core import follow_supports
 from ..system.system import System
 from .base import check_differentiable, matrices_of
-from .blocks import BLOCK, LARGEST, Block, Collector, Keeping
+from .blocks import Block, Collector, Keeping
 from .family import Family
 from .follow import Trail, check_method, given_start, when_cut
 from .jumps import end_at_jumps
@@ -125,7 +125,8 @@ class Adjoint:
         self.begun = self.memory.keep(run) if self.memory else {}
         times, found = [t], [self._histories(q, v)]
         keeping = Keeping(self.system, run.steps, bool(self.memory))
-        most = self._most(keeping)
+        each = 8 * self.system.size * (6 * len(self.nearby.others) + 12)
+        most = keeping.most(each, int(run.steps))
         while run.done < run.steps:
             h = run.h if run.done < run.full else run.rest
             block = Block(run.done, self._count(most), h, None if keeping.some else run.snapshot())
@@ -144,12 +145,6 @@ class Adjoint:
 
     def _histories(self, q: FloatArray, v: FloatArray) -> dict[Key, FloatArray]:
         return self.objective.histories(q, v) if self.objective is not None else {}
-
-    def _most(self, keeping: Keeping) -> int:
-        """Steps of a block at most; with snapshots as many as there are blocks, as far as they have room."""
-        each, steps = 8 * self.system.size * (6 * len(self.nearby.others) + 12), int(self.run.steps)
-        most = BLOCK / each if keeping.all else min(LARGEST / each, max(16, np.sqrt(steps)))
-        return max(1, min(int(most), steps))
 
     def _count(self, most: int) -> int:
         """Steps of the next block: so many that what the run hands over at once need not be put together."""

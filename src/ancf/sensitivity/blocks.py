@@ -130,6 +130,14 @@ class Keeping:
         self.some = self.all or (few and not remembers)
         self.at = None if self.all else at
 
+    def most(self, each: float, steps: int) -> int:
+        """Steps of a block at most, of so many bytes each.
+
+        With snapshots as many as there are blocks, as far as they have room.
+        """
+        most = BLOCK / each if self.all else min(LARGEST / each, max(16, np.sqrt(steps)))
+        return max(1, min(int(most), steps))
+
     def keep(self, before: FloatArray, q: FloatArray, v: FloatArray, trail: Trail, end: FloatArray) -> Kept:
         """What is kept of a block that began at ``before``."""
         return Kept(q if self.at is None else q[:, self.at], self.at, before, v, trail, end)

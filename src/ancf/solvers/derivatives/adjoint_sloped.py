@@ -34,8 +34,10 @@ from .strips import give_way, meet
 KEPT, OF_EACH = 10, 6
 #: Corrections after which those that do not shrink may be round-off.
 MANY = 5
-#: Part of lambda below which corrections end when the next one would be smaller, by the last two of them.
-SURE = 1e-12
+#: Part of lambda below which corrections end when the next one would be smaller, by the last two of them:
+#: what is left out of a step goes on to all before it.  With contacts of strips in the solutions the next one
+#: is a thousandth of that.
+SURE, OF_STRIPS = 1e-15, 1e-12
 #: Part of lambda that a plain correction may be, and part of the one before it; steps without such
 #: corrections after one that was more.
 MILD, MILDER, PAUSE = 1e-2, 5e-2, 64
@@ -150,7 +152,7 @@ def plainly(core, m, patches, factor, matrices, weights, y, lam, count, room):
     for round in range(MOST):
         count[0] += 1.0
         norm, size = correction(core, patches, factor, weights, lam, room)
-        ends = may_end(norm, size, before, round)
+        ends = may_end(norm, size, before, round, OF_STRIPS if len(patches) > 0 else SURE)
         if not ends and not norm <= (MILD * size if round == 0 else MILDER * before):
             return False, norm
         before = norm
@@ -187,13 +189,13 @@ def direction(core, weights, round, room):
 
 
 @inline_kernel
-def may_end(norm, size, before, round):
+def may_end(norm, size, before, round, sure):
     """Whether corrections may end with one of this size: the next would be too small, or it is round-off.
 
     Those of a few rows shrink when there have been as many, and not before.
     """
     rate = min(norm / before, 1.0) if round > 0 else 1.0  # nothing is known of a contact that has begun
-    if rate * norm <= SURE * size or norm < LEAST:
+    if rate * norm <= sure * size or norm < LEAST:
         return True
     return round >= MANY and norm <= NOISY * size and norm >= 0.5 * before
 
@@ -231,7 +233,7 @@ def entangled(core, m, patches, factor, matrices, weights, y, lam, count, room, 
             for i in range(lam.shape[0]):
                 room[k, i] = 0.0
         add_exact(core, m, matrices, y, change, own, w)
-        if round >= known and may_end(norm, size, before, round):
+        if round >= known and may_end(norm, size, before, round, SURE):
             for i in range(lam.shape[0]):
                 lam[i] += change[i]
                 lacks[i] -= left[i]
