@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 
     from ..answers.quantity import Quantity
     from ..lines.line import Line
+    from ..lines.wire import Wire
     from .content import Content
 
 MM = 1e3
@@ -221,23 +222,26 @@ def _tension_length(line: Line) -> Iterator[tuple[str, str, str]]:
         wire = getattr(line, key)
         if wire is None:
             continue
-        values = f"{wire.mass:g} kg/m, tension {wire.tension:g} N, EA {wire.EA:g} N, EI {wire.EI:g} N m²"
-        yield name, key, values + (f", damping {wire.damping:g} N s/m²" if wire.damping else "")
+        yield name, key, _wire(wire) + (f", damping {wire.damping:g} N s/m²" if wire.damping else "")
     if line.contact_spacing is not None:
         yield "two contact wires, apart [m]", "contact_spacing", f"{line.contact_spacing:g}"
     if getattr(line, "auxiliary", None) is not None:
         auxiliary = line.auxiliary
         assert auxiliary is not None
-        wire = auxiliary.wire
-        values = f"{wire.mass:g} kg/m, tension {wire.tension:g} N, EA {wire.EA:g} N, EI {wire.EI:g} N m²"
-        yield "auxiliary", "auxiliary_wire", f"{values}, {auxiliary.height:g} m over the contact wire"
+        yield (
+            "auxiliary",
+            "auxiliary_wire",
+            f"{_wire(auxiliary.wire)}, {auxiliary.height:g} m over the contact wire",
+        )
         yield "long droppers", "long_droppers", _droppers(auxiliary.droppers)
     if getattr(line, "stitch", None) is not None:
         stitch = line.stitch
         assert stitch is not None
-        wire = stitch.wire
-        values = f"{wire.mass:g} kg/m, tension {wire.tension:g} N, EA {wire.EA:g} N, EI {wire.EI:g} N m²"
-        yield "stitch wires", "stitch", f"{values}, {stitch.reach:g} m to either side of a support"
+        yield (
+            "stitch wires",
+            "stitch",
+            f"{_wire(stitch.wire)}, {stitch.reach:g} m to either side of a support",
+        )
     yield "damping of the wires", "damping", f"alpha {line.damping.alpha:g} 1/s, beta {line.damping.beta:g} s"
     yield "droppers", "droppers", _droppers(line.droppers)
     yield "system height [m]", "system_height", _few(line.system_height)
@@ -252,6 +256,11 @@ def _tension_length(line: Line) -> Iterator[tuple[str, str, str]]:
     yield "contact wire at the supports, at rest", "contact_support", line.contact_support
     yield "anchors", "anchors", line.anchors
     yield "source", "source", line.source or "not given"
+
+
+def _wire(wire: Wire) -> str:
+    """What is said of a wire."""
+    return f"{wire.mass:g} kg/m, tension {wire.tension:g} N, EA {wire.EA:g} N, EI {wire.EI:g} N m²"
 
 
 def _droppers(droppers: Any) -> str:

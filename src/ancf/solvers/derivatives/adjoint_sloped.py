@@ -23,7 +23,7 @@ from ...system.core import drive, onto_shadows, solve_matrix, to_local
 from ..rare import add_all_slopes, add_rate_works, add_tangent_works
 from ..status import OK, SINGULAR, SLOW
 from ..step.scheme import coefficients
-from .adjoint import add_turns, folded, hold, take_wanted, to_start
+from .adjoint import SURE, add_turns, folded, hold, take_wanted, to_start
 from .ahead import look_ahead, look_at, looks_ahead
 from .friction import bring
 from .friction_back import is_there, through_force, through_memory
@@ -34,10 +34,9 @@ from .strips import give_way, meet
 KEPT, OF_EACH = 10, 6
 #: Corrections after which those that do not shrink may be round-off.
 MANY = 5
-#: Part of lambda below which corrections end when the next one would be smaller, by the last two of them:
-#: what is left out of a step goes on to all before it.  With contacts of strips in the solutions the next one
-#: is a thousandth of that.
-SURE, OF_STRIPS = 1e-15, 1e-12
+#: As ``SURE``, by the last two corrections, where contacts of strips are in the solutions: the next one is a
+#: thousandth of what those say.
+OF_STRIPS = 1e-12
 #: Part of lambda that a plain correction may be, and part of the one before it; steps without such
 #: corrections after one that was more.
 MILD, MILDER, PAUSE = 1e-2, 5e-2, 64
@@ -207,7 +206,7 @@ def solve(core, m, patches, factor, matrices, weights, y, known, lam, count, roo
     ``known``: how many steps have been solved before; ``count``: of all corrections, is added to.
     """
     given = (core, m, patches, factor, matrices, weights, y)
-    begun(core, m, patches, factor, matrices, weights, y, known, lam, room)
+    begun(*given, known, lam, room)
     if room[HARD, 0] > 0.0:
         room[HARD, 0] -= 1.0
         return entangled(*given, lam, count, room, np.inf, 0)
