@@ -2,6 +2,7 @@
 
 import base64
 import dataclasses
+import html
 import io
 import json
 from html.parser import HTMLParser
@@ -26,6 +27,7 @@ from ancf.catenary import (
     measure,
     validate,
 )
+from ancf.catenary.answers.acceptance import acceptance, verdict
 from ancf.catenary.answers.quantity import shown
 from ancf.catenary.answers.references import reference_case
 from ancf.catenary.answers.statistics import statistics
@@ -156,6 +158,16 @@ class TestReport:
         same = [dataclasses.replace(r, name="twin") for r in two.recordings]
         content = Content.of(dataclasses.replace(two, recordings=same))
         assert [content.name(0), content.name(1)] == ["twin (1)", "twin (2)"]
+
+    @pytest.mark.parametrize("factor", [0.5, 2.0])
+    def test_a_verdict_keeps_its_capitals(self, run, factor, tmp_path, undrawn):
+        """Names of quantities and units, at the head of the page as on the screen."""
+        recordings = [dataclasses.replace(one, force=factor * one.force) for one in run.recordings]
+        made = dataclasses.replace(run, recordings=recordings)
+        told = verdict(acceptance(made, 0))
+        assert told != told.lower()
+        page = html.unescape(write_report(made, tmp_path / "page.html").read_text(encoding="utf-8"))
+        assert f"O{told[1:]} of EN 50367" in page
 
     def test_speed_without_ranges(self, run, tmp_path, undrawn):
         reference = reference_case("en50318-2002")

@@ -119,7 +119,7 @@ def accepted(content: Content) -> list[list[Quantity]]:
 def _top(content: Content, title: str, lists: Sequence[Sequence[Quantity]]) -> Iterator[Element]:
     yield element("h1", title)
     names = ", ".join(unit.title or unit.name for unit in content.run.pantographs)
-    head = [f"{key.capitalize()}: {value}" for key, value in content.run.form.line.report.items() if value]
+    head = [f"{_capital(key)}: {value}" for key, value in content.run.form.line.report.items() if value]
     if head:
         yield element("p", ". ".join(head) + ".")
     units = "Pantographs, the first ahead" if content.several else "Pantograph"
@@ -134,7 +134,7 @@ def _top(content: Content, title: str, lists: Sequence[Sequence[Quantity]]) -> I
         )
     if content.reference is None:
         for name, one in zip(content.names, lists, strict=True):
-            told = f"{name}: {verdict(one)}" if content.several else verdict(one).capitalize()
+            told = f"{name}: {verdict(one)}" if content.several else _capital(verdict(one))
             yield _box(f"{told} of EN 50367, EN 50119 and practice.", one)
         return
     for k in range(len(content.found)):
